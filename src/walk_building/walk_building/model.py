@@ -40,7 +40,8 @@ class Part:
 class Space:
     """A room as the file declares it: a closed mesh that is no obstacle."""
 
-    name: str
+    name: str  # its number, such as "A102"
+    long_name: str = ""  # what it is for, such as "Living Room"
     storey: str
     vertices: NDArray[np.float64]  # (V, 3) [m]
     faces: NDArray[np.int32]  # (F, 3)
