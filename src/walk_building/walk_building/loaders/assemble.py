@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import TypeVar
 
@@ -39,14 +40,16 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
     turn = units_m * _TO_Z_UP[up].T  # rows are points: p_model = p_file @ turn
     warnings = list(raw.warnings) + _assumptions(raw, options, part_filter)
 
-    parts, n_degenerate = _solid_parts(raw.parts, turn, path)
-    if not parts:
+    solid = [_solid(mesh, turn, path) for mesh in raw.parts]
+    meshes = [mesh for mesh, _ in solid if len(mesh.faces)]
+    if not meshes:
         raise BuildingError(path, _why_empty(raw, part_filter))
-    vertices, faces, listed = _join(parts)
-    check_extent(vertices, listed, faces, path, units_m)
+    vertices, faces, parts = _join(meshes)
+    check_extent(vertices, faces, parts, path, units_m)
+    n_degenerate = sum(n for _, n in solid)
     if n_degenerate:
-        warnings.append(f"{n_degenerate} triangles without an area were left out.")
-    warnings += suspect_precision(vertices)
+        warnings.append(f"Triangles without an area were left out: {n_degenerate}.")
+    warnings += suspect_precision((mesh.vertices for mesh in raw.parts), units_m)
     warnings += suspect_axes(vertices, faces, up)
 
     offset_m = _offset(vertices)
@@ -55,7 +58,7 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
         content_hash=content_hash,
         vertices=_frozen(vertices - offset_m),
         faces=_frozen(faces),
-        parts=listed,
+        parts=parts,
         spaces=tuple(_space(mesh, turn, offset_m) for mesh in raw.spaces),
         doors=tuple(_door(mesh, turn, offset_m) for mesh in raw.doors),
         storeys=_storeys(raw, units_m, float(offset_m[2])),
@@ -74,35 +77,23 @@ def _assumptions(raw: RawModel, options: LoadOptions, part_filter: PartFilter) -
     return warnings
 
 
-def _solid_parts(
-    meshes: tuple[RawMesh, ...], turn: NDArray[np.float64], path: Path
-) -> tuple[list[tuple[RawMesh, NDArray[np.float64], NDArray[np.int32]]], int]:
-    """Returns the meshes with their vertices [m] and their faces with an area, and how many faces had none."""
-    solid = []
-    n_degenerate = 0
-    for mesh in meshes:
-        vertices = mesh.vertices @ turn
-        _check_numbers(mesh, vertices, path)
-        corners = vertices[mesh.faces]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-        keep = area > 0.0
-        n_degenerate += int(np.count_nonzero(~keep))
-        if keep.any():
-            solid.append((mesh, vertices, mesh.faces[keep]))
-    return solid, n_degenerate
-
-
-def _check_numbers(mesh: RawMesh, vertices: NDArray[np.float64], path: Path) -> None:
-    finite = np.isfinite(vertices).all(axis=1)
-    if not finite.all():
-        bad = int(np.flatnonzero(~finite)[0])
-        raise BuildingError(
-            path, f"vertex {bad} of part {mesh.name!r} is not a finite number; export the file again or ignore the part"
-        )
-    if len(mesh.faces) and (mesh.faces.min() < 0 or mesh.faces.max() >= len(vertices)):
-        raise BuildingError(
-            path, f"a triangle of part {mesh.name!r} names a vertex that does not exist; the file is damaged"
-        )
+def _solid(mesh: RawMesh, turn: NDArray[np.float64], path: Path) -> tuple[RawMesh, int]:
+    """Returns the mesh in metres, z up, without useless triangles and vertices, and how many triangles that were."""
+    if len(mesh.faces) and (mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.vertices)):
+        raise BuildingError(path, f"a triangle of part {mesh.name!r} names a vertex that is not there; export it again")
+    used = np.zeros(len(mesh.vertices), dtype=np.bool_)
+    used[mesh.faces] = True
+    with np.errstate(all="ignore"):  # what is not finite is refused on the next line
+        vertices = mesh.vertices[used] @ turn
+    if not np.isfinite(vertices).all():
+        raise BuildingError(path, f"part {mesh.name!r} has vertices that are no finite numbers; export it again")
+    faces = (np.cumsum(used, dtype=np.int32) - 1)[mesh.faces]
+    corners = vertices[faces]
+    with np.errstate(over="ignore", invalid="ignore"):  # absurd sizes are refused with the extent
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    keep = (normals != 0.0).any(axis=1)
+    solid = dataclasses.replace(mesh, vertices=vertices, faces=faces[keep].astype(np.int32))
+    return solid, int(np.count_nonzero(~keep))
 
 
 def _why_empty(raw: RawModel, part_filter: PartFilter) -> str:
@@ -113,18 +104,16 @@ def _why_empty(raw: RawModel, part_filter: PartFilter) -> str:
     return "holds no triangles, so there is nothing to walk on"
 
 
-def _join(
-    solid: list[tuple[RawMesh, NDArray[np.float64], NDArray[np.int32]]],
-) -> tuple[NDArray[np.float64], NDArray[np.int32], tuple[Part, ...]]:
-    parts = []
+def _join(meshes: list[RawMesh]) -> tuple[NDArray[np.float64], NDArray[np.int32], tuple[Part, ...]]:
+    """Returns the vertices [m] and faces of all meshes, and which faces belong to which."""
+    parts, faces = [], []
     first_vertex = first_face = 0
-    shifted = []
-    for mesh, vertices, faces in solid:
-        shifted.append(faces + np.int32(first_vertex))
-        parts.append(Part(name=mesh.name, kind=mesh.kind, first_face=first_face, n_faces=len(faces)))
-        first_vertex += len(vertices)
-        first_face += len(faces)
-    return np.concatenate([vertices for _, vertices, _ in solid]), np.concatenate(shifted), tuple(parts)
+    for mesh in meshes:
+        faces.append(mesh.faces + np.int32(first_vertex))
+        parts.append(Part(name=mesh.name, kind=mesh.kind, first_face=first_face, n_faces=len(mesh.faces)))
+        first_vertex += len(mesh.vertices)
+        first_face += len(mesh.faces)
+    return np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(faces), tuple(parts)
 
 
 def _offset(vertices: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -42,7 +42,7 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
     file = _open(path)
     unit_m = _length_unit(file, path)
     products = [product for product in _with_shape(file, options) if not _ignored(product, part_filter)]
-    meshes = dict(_tessellate(file, products, unit_m, progress))
+    meshes = _tessellate(file, products, unit_m, progress)
     spaces, doors, parts = [], [], []
     for product in products:
         mesh = meshes.get(product.id())
@@ -66,15 +66,15 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
 
 
 def _open(path: Path) -> Any:
-    import ifcopenshell
+    import ifcopenshell  # half a second of imports that a mesh file does not need
 
-    text = read_step(path)
+    known = {str(name).upper() for name in ifcopenshell.ifcopenshell_wrapper.schema_names()}
+    text = read_step(path, {name for name in known if name.startswith("IFC")})
     try:
-        file = ifcopenshell.file.from_string(text.decode("latin-1"))
-        schema = file.schema
+        file = ifcopenshell.file.from_string(text)
+        file.by_type("IfcProduct")
     except Exception as error:  # the engine's own exceptions share no base
-        raise BuildingError(path, f"cannot be read as IFC ({error})") from error
-    del schema
+        raise BuildingError(path, f"is damaged and cannot be read as IFC ({error})") from error
     return file
 
 
@@ -108,10 +108,29 @@ def _name(product: Any) -> str:
     return product.Name or f"{product.is_a()} #{product.id()}"
 
 
-def _tessellate(
-    file: Any, products: list[Any], unit_m: float, progress: Progress
-) -> Iterator[tuple[int, RawMesh]]:
-    """Yields each product's id and mesh in the file's unit; what the engine cannot tessellate is missing."""
+def _tessellate(file: Any, products: list[Any], unit_m: float, progress: Progress) -> dict[int, RawMesh]:
+    """Returns each product's mesh in the file's unit by its id; what the engine cannot tessellate is missing."""
+    meshes = {}
+    for shape, share_done in _shapes(file, products):
+        geometry = shape.geometry
+        # The placement is applied here, in double precision, so that far coordinates keep their millimetres.
+        placement = np.array(shape.transformation.matrix, dtype=np.float64).reshape(4, 4, order="F")
+        local = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3)
+        product = file.by_id(shape.id)
+        meshes[product.id()] = RawMesh(
+            name=_name(product),
+            long_name=getattr(product, "LongName", None) or "",
+            kind=product.is_a(),
+            storey=_storey_name(product),
+            vertices=(local @ placement[:3, :3].T + placement[:3, 3]) / unit_m,
+            faces=np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3).copy(),
+        )
+        progress("load", share_done)
+    return {key: mesh for key, mesh in meshes.items() if len(mesh.faces)}
+
+
+def _shapes(file: Any, products: list[Any]) -> Iterator[tuple[Any, float]]:
+    """Yields the engine's shapes, in metres relative to their placements, and the share of them done."""
     import ifcopenshell.geom
 
     if not products:
@@ -120,28 +139,10 @@ def _tessellate(
     settings.set("no-normals", True)
     settings.set("apply-default-materials", False)
     iterator = ifcopenshell.geom.iterator(settings, file, _THREADS, include=products)
-    if not iterator.initialize():
-        return
-    while True:
-        shape = iterator.get()
-        geometry = shape.geometry
-        # The placement is applied here: in double precision, so that far coordinates keep their millimetres.
-        placement = np.array(shape.transformation.matrix, dtype=np.float64).reshape(4, 4, order="F")
-        local = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3)
-        faces = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3).copy()
-        product = file.by_id(shape.id)
-        if len(faces):
-            yield shape.id, RawMesh(
-                name=_name(product),
-                long_name=getattr(product, "LongName", None) or "",
-                kind=product.is_a(),
-                storey=_storey_name(product),
-                vertices=(local @ placement[:3, :3].T + placement[:3, 3]) / unit_m,
-                faces=faces,
-            )
-        progress("load", iterator.progress() / 100.0)
-        if not iterator.next():
-            return
+    more = iterator.initialize()
+    while more:
+        yield iterator.get(), iterator.progress() / 100.0
+        more = iterator.next()
 
 
 def _parent(product: Any) -> Any | None:

@@ -7,24 +7,33 @@ from __future__ import annotations
 import re
 import zipfile
 import zlib
+from collections.abc import Collection
 from pathlib import Path
 
 from walk_building.errors import BuildingError
 
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", re.IGNORECASE)
 
-# Names for what is, entity by entity, a schema the engine knows under another name.
-_SAME_AS = {"IFC2X_FINAL": "IFC2X3", "IFC2X3_FINAL": "IFC2X3", "IFC2X3_TC1": "IFC2X3", "IFC4X3": "IFC4X3_ADD2"}
+# Names that exporters write for what is, in all that shapes a building, a schema the engine knows.
+_SAME_AS = {
+    **dict.fromkeys(("IFC2X_FINAL", "IFC2X3_FINAL", "IFC2X3_TC1"), "IFC2X3"),
+    **dict.fromkeys(("IFC4_ADD1", "IFC4_ADD2", "IFC4_ADD2_TC1"), "IFC4"),
+    **dict.fromkeys(("IFC4X3", "IFC4X3_ADD1", "IFC4X3_TC1"), "IFC4X3_ADD2"),
+}
 
 # A header longer than this is none.
 _HEADER_BYTES = 65536
 
 
-def read_step(path: Path) -> bytes:
-    """Returns the STEP text of an `.ifc` or `.ifczip` file with a schema name the engine knows.
+def read_step(path: Path, known: Collection[str]) -> str:
+    """Returns the STEP text of an `.ifc` or `.ifczip` file, its schema under a name the engine knows.
+
+    Args:
+        path: The file.
+        known: The schemas the engine reads.
 
     Raises:
-        BuildingError: It is no STEP file, names no schema, or ends before its end.
+        BuildingError: It is no STEP file, is of another schema, or ends before its end.
     """
     data = _unzipped(path) if path.suffix.lower() == ".ifczip" else path.read_bytes()
     head = data[:_HEADER_BYTES]
@@ -33,11 +42,22 @@ def read_step(path: Path) -> bytes:
     match = _SCHEMA.search(head)
     if match is None:
         raise BuildingError(path, "is not an IFC file (its header names no schema)")
+    given = match.group(1).decode("ascii", "replace").upper()
+    name = _SAME_AS.get(given, given)
+    if name not in known:
+        expected = ", ".join(sorted(known))
+        raise BuildingError(path, f"its schema {given!r} cannot be read; export it as one of {expected}")
     if b"END-ISO-10303-21" not in data[-1024:]:
         raise BuildingError(path, "is cut short (END-ISO-10303-21 is missing); copy or export it again")
-    name = match.group(1).decode("ascii", "replace").upper()
-    known = _SAME_AS.get(name, name)
-    return data[: match.start(1)] + known.encode("ascii", "replace") + data[match.end(1) :]
+    return _text(data[: match.start(1)] + name.encode() + data[match.end(1) :])
+
+
+def _text(data: bytes) -> str:
+    # STEP is ASCII with escapes, but exporters write names as they come.
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
 
 
 def _unzipped(path: Path) -> bytes:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -19,9 +20,14 @@ _LONGEST_M = 5000.0
 # The tallest building is 830 m high; a single storey in millimetres read as metres is 2500 m.
 _TALLEST_M = 1000.0
 
+# A walker's clearance of a few centimetres means nothing if walls are only known this well.
+_COARSE_M = 0.005
+# Cosine of the angle, 18 degrees, up to which a triangle counts as facing along an axis.
+_FACING = 0.95
+
 
 def check_extent(
-    vertices: NDArray[np.float64], parts: tuple[Part, ...], faces: NDArray[np.int32], path: Path, units_m: float
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], parts: tuple[Part, ...], path: Path, units_m: float
 ) -> None:
     """Refuses a size that is no building's.
 
@@ -34,11 +40,11 @@ def check_extent(
     if extent.max() < _SMALLEST_M:
         raise BuildingError(path, f"{unit}, too small to walk in; give its unit with --units")
     if extent[:2].max() > _LONGEST_M or extent[2] > _TALLEST_M:
-        hint = _stray_part(vertices, parts, faces)
+        hint = _stray_part(vertices, faces, parts)
         raise BuildingError(path, f"{unit}, too large for a building; give its unit with --units{hint}")
 
 
-def _stray_part(vertices: NDArray[np.float64], parts: tuple[Part, ...], faces: NDArray[np.int32]) -> str:
+def _stray_part(vertices: NDArray[np.float64], faces: NDArray[np.int32], parts: tuple[Part, ...]) -> str:
     """Returns a hint at the part without which the model would be of a building's size, or ""."""
     if len(parts) < 2:
         return ""
@@ -57,12 +63,60 @@ def _centre(vertices: NDArray[np.float64], faces: NDArray[np.int32], part: Part)
     return centre
 
 
-def suspect_precision(vertices: NDArray[np.float64]) -> list[str]:
-    """Returns a warning where far coordinates kept as 32-bit numbers are coarser than a centimetre."""
-    farthest = float(np.abs(vertices).max())
-    return []
+def suspect_precision(meshes: Iterable[NDArray[np.float64]], units_m: float) -> list[str]:
+    """Returns a warning where a file keeps far coordinates as 32-bit numbers, whose steps are then coarse.
+
+    Args:
+        meshes: Vertices (V, 3) of each part in the file's units.
+        units_m: Length of one unit [m].
+    """
+    step = 0.0
+    for vertices in meshes:
+        single = vertices.astype(np.float32)
+        if vertices.size and np.array_equal(single, vertices):
+            step = max(step, float(np.spacing(np.abs(single).max())) * units_m)
+    if step < _COARSE_M:
+        return []
+    return [
+        f"The file keeps coordinates far from the origin as 32-bit numbers, in steps of {step * 1000:.0f} mm; "
+        "export it near the origin for exact walls."
+    ]
 
 
 def suspect_axes(vertices: NDArray[np.float64], faces: NDArray[np.int32], up: str) -> list[str]:
-    """Returns a warning where the model seems to lie on its side."""
-    return []
+    """Returns a warning where the model seems to lie on its side; our own measures.
+
+    Floors pack much area into little height: the area that faces along an axis, per metre of that axis, is by far
+    the largest along the true vertical. A tower's facades can beat its floors there, but not in area too; and the
+    single floor of a low building is found as one plane that holds most of what faces its way.
+    """
+    corners = vertices[faces]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    area = np.linalg.norm(normals, axis=1)
+    extent = np.maximum(np.ptp(vertices, axis=0), 1e-3)
+    facing = np.abs(normals) > _FACING * area[:, None]
+    total = (facing * area[:, None]).sum(axis=0)
+    y, z = 1, 2
+    denser = total[y] / extent[y] > 2.0 * total[z] / extent[z]
+    on_side = denser and total[y] > 1.2 * total[z]
+    flat = (
+        denser
+        and extent[y] < 0.5 * min(extent[0], extent[z])
+        and _largest_plane(corners, area, facing, y) > 0.5 > _largest_plane(corners, area, facing, z)
+    )
+    if not (on_side or flat):
+        return []
+    other = "z" if up == "y" else "y"
+    return [f"The building seems to lie on its side: more floor faces along y than along z; try --up {other}."]
+
+
+def _largest_plane(
+    corners: NDArray[np.float64], area: NDArray[np.float64], facing: NDArray[np.bool_], axis: int
+) -> float:
+    """Returns the share of the area facing along an axis that lies within one layer of 10 cm."""
+    mine = facing[:, axis]
+    if not mine.any():
+        return 0.0
+    layer = np.floor(corners[mine, :, axis].mean(axis=1) / 0.1).astype(np.int64)
+    sums = np.bincount(layer - layer.min(), weights=area[mine])
+    return float(sums.max() / sums.sum())
