@@ -1,3 +1,40 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
 """Building files as something to plan in: triangles, rooms, storeys, walkable surface, exact queries."""
+
+from walk_building.building import Building, Room
+from walk_building.config import Config, param
+from walk_building.errors import BuildingError, ParameterError, WalkError
+from walk_building.geometry import Closest, Geometry, RayHits
+from walk_building.model import Door, LoadOptions, Model, Part, Space, Storey
+from walk_building.pipeline import load_building, prepare_building
+from walk_building.progress import Progress, no_progress
+from walk_building.surface import WalkableSurface
+from walk_building.sweep import BodySweep
+from walk_building.walker import Walker
+
+__all__ = [
+    "BodySweep",
+    "Building",
+    "BuildingError",
+    "Closest",
+    "Config",
+    "Door",
+    "Geometry",
+    "LoadOptions",
+    "Model",
+    "ParameterError",
+    "Part",
+    "Progress",
+    "RayHits",
+    "Room",
+    "Space",
+    "Storey",
+    "WalkError",
+    "WalkableSurface",
+    "Walker",
+    "load_building",
+    "no_progress",
+    "param",
+    "prepare_building",
+]

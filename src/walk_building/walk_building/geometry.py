@@ -64,7 +64,7 @@ class Geometry:
         found = np.empty((len(query), 3))
         distance = np.empty(len(query))
         face = np.empty(len(query), np.int32)
-        _in_chunks(_closest_batch, len(query), self.bvh, query, float(max_distance_m), found, distance, face)
+        in_chunks(_closest_batch, len(query), self.bvh, query, float(max_distance_m), found, distance, face)
         return Closest(points=found, distance_m=distance, face=face)
 
     def raycast(self, origins: ArrayLike, directions: ArrayLike, max_distance_m: float = np.inf) -> RayHits:
@@ -85,7 +85,7 @@ class Geometry:
         unit = np.ascontiguousarray(along / length[:, None])
         distance = np.empty(len(start))
         face = np.empty(len(start), np.int32)
-        _in_chunks(_ray_batch, len(start), self.bvh, start, unit, float(max_distance_m), distance, face)
+        in_chunks(_ray_batch, len(start), self.bvh, start, unit, float(max_distance_m), distance, face)
         return RayHits(distance_m=distance, face=face)
 
     def height_above_floor(self, points: ArrayLike) -> NDArray[np.float64]:
@@ -109,7 +109,7 @@ def as_points(name: str, points: ArrayLike) -> NDArray[np.float64]:
     return array
 
 
-def _in_chunks(kernel: Callable[..., None], n: int, *args: object) -> None:
+def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> None:
     """Runs `kernel(begin, end, *args)` over 0..n, on all cores where there is enough to do."""
     workers = min(os.cpu_count() or 1, n // _PARALLEL_FROM + 1)
     if workers == 1:

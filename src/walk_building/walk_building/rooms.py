@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rooms of a building: its declared spaces, and pieces of the surface where none are declared."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_building.building import Room
+from walk_building.model import Model, Storey
+from walk_building.segmentation import segment_rooms
+from walk_building.storeys import storey_of
+from walk_building.walker import Walker
+
+_OUTDOORS = "it is outdoors: there is nothing above it"
+# A found part that nobody reaches and that is smaller than this is the top of a cupboard, not worth a line.
+_MIN_UNREACHED_ROOM_M2 = 10.0
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class _Floor:
+    """What is known of the places when rooms are looked for; all (P,) but places, (P, 3)."""
+
+    places: NDArray[np.float64]
+    clearance_m: NDArray[np.float64]
+    component: NDArray[np.int32]
+    reachable: NDArray[np.bool_]
+    place_area_m2: float
+    storeys: tuple[Storey, ...]
+
+
+def find_rooms(
+    *,
+    model: Model,
+    walker: Walker,
+    storeys: tuple[Storey, ...],
+    places: NDArray[np.float64],
+    indptr: NDArray[np.int64],
+    neighbours: NDArray[np.int32],
+    clearance_m: NDArray[np.float64],
+    space: NDArray[np.int32],
+    indoor: NDArray[np.bool_],
+    component: NDArray[np.int32],
+    reachable: NDArray[np.bool_],
+    place_area_m2: float,
+) -> tuple[tuple[Room, ...], NDArray[np.int32]]:
+    """Returns the rooms, declared ones first, and the room of each place (P,), -1 for none.
+
+    Indoor places on storeys without spaces, or of models without, are segmented.
+    """
+    floor = _Floor(
+        places=places, clearance_m=clearance_m, component=component, reachable=reachable,
+        place_area_m2=place_area_m2, storeys=storeys,
+    )  # fmt: skip
+    room = np.full(len(places), -1, np.int32)
+    rooms: list[Room] = []
+    for index, declared in enumerate(model.spaces):
+        standable = space == index
+        members = np.flatnonzero(standable & indoor)
+        under_the_sky = len(members) == 0 and bool(standable.any())
+        storey = next((i for i, s in enumerate(storeys) if s.name == declared.storey), None)
+        if storey is None:
+            base = np.array([declared.vertices[:, 2].min()])
+            storey = int(storey_of(storeys, base)[0])
+        room[members] = len(rooms)
+        found = _room(declared.name, storey, members, declared.vertices.mean(axis=0), floor)
+        rooms.append(dataclasses.replace(found, reason=_OUTDOORS) if under_the_sky else found)
+
+    left = indoor & (space < 0) & _without_spaces(model, storeys, places[:, 2])
+    label = segment_rooms(
+        indptr,
+        neighbours,
+        clearance_m,
+        left & reachable,
+        level=storey_of(storeys, places[:, 2]),
+        radius_m=walker.radius_m,
+        place_area_m2=place_area_m2,
+    )
+    # What nobody reaches is not looked into: each of its parts is one entry.
+    unreached = left & ~reachable
+    label[unreached] = label.max() + 1 + np.unique(component[unreached], return_inverse=True)[1]
+    for found in _found_rooms(label, floor):
+        room[found.places] = len(rooms)
+        rooms.append(found)
+    return tuple(rooms), room
+
+
+def _without_spaces(model: Model, storeys: tuple[Storey, ...], z: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether each height (P,) lies on a storey for which the file declares no space."""
+    if not model.spaces:
+        return np.ones(len(z), bool)
+    with_spaces = {space.storey for space in model.spaces}
+    bare = np.array([bool(model.storeys) and storey.name not in with_spaces for storey in storeys])
+    return np.asarray(bare[storey_of(storeys, z)])
+
+
+def _found_rooms(label: NDArray[np.int32], floor: _Floor) -> list[Room]:
+    """The segmented pieces as rooms, named by storey and size."""
+    inside = np.flatnonzero(label >= 0)
+    if len(inside) == 0:
+        return []
+    inside = inside[np.argsort(label[inside], kind="stable")]
+    pieces = np.split(inside, np.flatnonzero(np.diff(label[inside])) + 1)
+    found = []
+    for members in sorted(pieces, key=len, reverse=True):
+        area = len(members) * floor.place_area_m2
+        if not floor.reachable[members].any() and area < _MIN_UNREACHED_ROOM_M2:
+            continue
+        height = np.array([np.median(floor.places[members, 2])])
+        storey = int(storey_of(floor.storeys, height)[0])
+        found.append(_room("", storey, members, floor.places[members].mean(axis=0), floor))
+    found.sort(key=lambda r: (r.storey, not r.reachable))
+    count = dict.fromkeys(range(len(floor.storeys)), 0)
+    named = []
+    for piece in found:
+        count[piece.storey] += 1
+        kind = "room" if piece.reachable else "separate part"
+        name = f"{floor.storeys[piece.storey].name}, {kind} {count[piece.storey]}"
+        named.append(dataclasses.replace(piece, name=name))
+    return named
+
+
+def _room(
+    name: str, storey: int, members: NDArray[np.int64], middle: NDArray[np.float64], floor: _Floor
+) -> Room:
+    reached = members[floor.reachable[members]]
+    best = reached if len(reached) else members
+    centre = floor.places[best[np.argmax(floor.clearance_m[best])]] if len(best) else middle
+    return Room(
+        name=name,
+        storey=storey,
+        area_m2=len(members) * floor.place_area_m2,
+        centre=centre,
+        places=members,
+        reachable=len(reached) > 0,
+        reason="" if len(reached) else _reason(members, floor),
+    )
+
+
+def _reason(members: NDArray[np.int64], floor: _Floor) -> str:
+    """Why a room without a reachable place has none."""
+    if len(members) == 0:
+        return "nowhere in it is there room for the walker to stand"
+    part = np.bincount(floor.component[members]).argmax()
+    area = float((floor.component == part).sum()) * floor.place_area_m2
+    z = floor.places[floor.component == part, 2]
+    return (
+        f"no way on foot leads there from where the tour starts: it lies in a separate part of {area:.0f} m² "
+        f"at heights {z.min():.1f} to {z.max():.1f} m"
+    )

@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compiled look-ups on the walkable surface."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+
+FIT_RADIUS_M = 0.3  # about a tread: enough for a plane through a stair, too little to round off a landing
+NEAREST_RADIUS_M = 1.0
+
+
+class Grid(NamedTuple):
+    """Places by column: those of (i, j) are `start[i * ny + j] : start[i * ny + j + 1]`."""
+
+    origin_x: float
+    origin_y: float
+    cell: float
+    nx: int
+    ny: int
+    start: NDArray[np.int64]
+    places: NDArray[np.float64]
+
+
+@numba.njit(cache=True, nogil=True)
+def place_in_column(grid, i, j, z, tolerance):
+    """Place of column (i, j) whose height is nearest to z and within the tolerance, -1 for none."""
+    if i < 0 or j < 0 or i >= grid.nx or j >= grid.ny:
+        return -1
+    best, best_gap = -1, tolerance
+    c = i * grid.ny + j
+    for p in range(grid.start[c], grid.start[c + 1]):
+        gap = abs(grid.places[p, 2] - z)
+        if gap <= best_gap:
+            best, best_gap = p, gap
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
+def link(grid, step, indptr, neighbours):
+    """Writes each place's neighbours, at most one in each of the eight columns around it; returns how many in all.
+
+    Two places are neighbours if each is the other's nearest in height, so the relation is symmetric.
+    """
+    n = 0
+    for c in range(grid.nx * grid.ny):
+        i, j = c // grid.ny, c % grid.ny
+        for p in range(grid.start[c], grid.start[c + 1]):
+            indptr[p] = n
+            for k in range(9):
+                if k == 4:
+                    continue
+                q = place_in_column(grid, i + k // 3 - 1, j + k % 3 - 1, grid.places[p, 2], step)
+                if q >= 0 and place_in_column(grid, i, j, grid.places[q, 2], step) == p:
+                    neighbours[n] = q
+                    n += 1
+    indptr[len(grid.places)] = n
+    return n
+
+
+@numba.njit(cache=True, nogil=True)
+def floor_planes(grid, eyes, eye_height, reach, out):
+    """Fits a plane to the places around each eye; see WalkableSurface.floor_plane."""
+    for n in range(eyes.shape[0]):
+        z = eyes[n, 2] - eye_height
+        out[n] = _fit_plane(grid, eyes[n, 0], eyes[n, 1], z, reach)
+        if np.isnan(out[n, 0]):
+            p = nearest_place(grid, eyes[n, 0], eyes[n, 1], z, reach, NEAREST_RADIUS_M)
+            if p >= 0:
+                out[n, 0], out[n, 1], out[n, 2] = grid.places[p, 2], 0.0, 0.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _fit_plane(grid, x, y, z, reach):
+    m = np.zeros((3, 3))
+    rhs = np.zeros(3)
+    row = np.ones(3)
+    i0, j0 = (x - grid.origin_x) / grid.cell, (y - grid.origin_y) / grid.cell
+    r = FIT_RADIUS_M / grid.cell
+    for i in range(int(np.ceil(i0 - r)), int(np.floor(i0 + r)) + 1):
+        for j in range(int(np.ceil(j0 - r)), int(np.floor(j0 + r)) + 1):
+            off = np.sqrt((i - i0) ** 2 + (j - j0) ** 2)
+            if off >= r:
+                continue
+            p = place_in_column(grid, i, j, z, reach)
+            if p < 0:
+                continue
+            # A weight that ends with zero value and slope at the rim keeps the height smooth along a path.
+            weight = (1.0 - (off / r) ** 2) ** 2
+            row[1], row[2] = grid.places[p, 0] - x, grid.places[p, 1] - y
+            for a in range(3):
+                rhs[a] += weight * row[a] * (grid.places[p, 2] - z)
+                for b in range(3):
+                    m[a, b] += weight * row[a] * row[b]
+    plane = np.full(3, np.nan)
+    if m[0, 0] <= 0.0:
+        return plane
+    # A little damping of the slopes, in units of the weights, decides for level where the places are in a line.
+    damping = m[0, 0] * (0.1 * grid.cell) ** 2
+    m[1, 1] += damping
+    m[2, 2] += damping
+    solution = np.linalg.solve(m, rhs)
+    plane[0], plane[1], plane[2] = z + solution[0], solution[1], solution[2]
+    return plane
+
+
+@numba.njit(cache=True, nogil=True)
+def nearest_place(grid, x, y, z, reach, radius):
+    """Place nearest to (x, y) within the radius whose height is within `reach` of z, -1 for none."""
+    i0, j0 = (x - grid.origin_x) / grid.cell, (y - grid.origin_y) / grid.cell
+    r = radius / grid.cell
+    best, best_sq = -1, r * r
+    for i in range(int(np.ceil(i0 - r)), int(np.floor(i0 + r)) + 1):
+        for j in range(int(np.ceil(j0 - r)), int(np.floor(j0 + r)) + 1):
+            sq = (i - i0) ** 2 + (j - j0) ** 2
+            if sq <= best_sq:
+                p = place_in_column(grid, i, j, z, reach)
+                if p >= 0:
+                    best, best_sq = p, sq
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
+def segment_walkable(grid, mask, start, end, step):
+    """Whether the straight line between two places crosses only squares with four standable corners.
+
+    The squares lie between four columns each. The line is followed from crossing to crossing; the height is
+    carried on from corner to corner, so a line never jumps between storeys.
+    """
+    ax, ay = (grid.places[start, 0] - grid.origin_x) / grid.cell, (grid.places[start, 1] - grid.origin_y) / grid.cell
+    bx, by = (grid.places[end, 0] - grid.origin_x) / grid.cell, (grid.places[end, 1] - grid.origin_y) / grid.cell
+    steps = int(np.ceil(max(abs(bx - ax), abs(by - ay)) * 4.0))
+    z = grid.places[start, 2]
+    if not (mask[start] and mask[end]):
+        return False
+    for s in range(steps + 1):
+        t = s / steps if steps > 0 else 0.0
+        x, y = ax + t * (bx - ax), ay + t * (by - ay)
+        i, j = int(np.floor(x + 1e-9)), int(np.floor(y + 1e-9))
+        total, n = 0.0, 0
+        for k in range(4):
+            ci, cj = i + k // 2, j + k % 2
+            # On a side of the square only that side's two corners count: lines along a row of places have two.
+            if abs(ci - x) >= 1.0 - 1e-9 or abs(cj - y) >= 1.0 - 1e-9:
+                continue
+            p = place_in_column(grid, ci, cj, z, step)
+            if p < 0 or not mask[p]:
+                return False
+            total += grid.places[p, 2]
+            n += 1
+        if n > 0:
+            z = total / n
+    return abs(z - grid.places[end, 2]) <= step
