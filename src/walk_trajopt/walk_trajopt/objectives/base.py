@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an objective is: a value, its gradient, and its curvature in one of two shapes.
+
+Sums over points approximate integrals along the path: a sum is multiplied by the spacing `h`, a first difference
+divided by `h`, a second one by `h²`. So the objectives, and the balance of their weights, do not depend on the
+number of points.
+"""
+
+from __future__ import annotations
+
+import abc
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_building.geometry import Geometry
+from walk_building.surface import WalkableSurface
+from walk_building.walker import Walker
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Setting:
+    """All that objectives may refer to besides the points they are asked about."""
+
+    start: NDArray[np.float64]  # (n, 3) the planned tour's points x⁰ [m]
+    spacing_m: float  # h, the mean distance between neighbours of `start`
+    keypoints: NDArray[np.float64]  # (M, 3) [m]
+    keypoint_index: NDArray[np.int64]  # (M,) the point of each
+    geometry: Geometry
+    surface: WalkableSurface
+    walker: Walker
+    clearance_m: float  # D
+    clearance_of: str  # "body" or "eye"
+
+
+class Objective(abc.ABC):
+    """A term of the cost, never negative."""
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+
+    @abc.abstractmethod
+    def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        """Returns the value at points `x` (n, 3) and its gradient (n, 3)."""
+
+
+class QuadraticObjective(Objective):
+    """Σ over coordinates of (x − t)ᵀ A (x − t) with a constant pentadiagonal n × n matrix A."""
+
+    target: NDArray[np.float64]  # (n, 3) t
+    bands: NDArray[np.float64]  # (3, n) lower bands of A: A[i, i], A[i + 1, i], A[i + 2, i]
+
+    def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        """Returns the value (x − t)ᵀ A (x − t) and the gradient 2 A (x − t)."""
+        offset = x - self.target
+        product = banded_product(self.bands, offset)
+        return float(np.vdot(offset, product)), 2.0 * product
+
+
+class PointwiseObjective(Objective):
+    """h Σ r_i², a residual per point that depends on this point alone."""
+
+    @abc.abstractmethod
+    def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns the residuals r (n,) at points `x` (n, 3) and their gradients J (n, 3).
+
+        The Gauss–Newton approximation of the Hessian is 2 h Jᵢ Jᵢᵀ per point.
+        """
+
+    def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
+        """Returns the value h Σ r² and the gradient 2 h r J."""
+        r, jacobian = self.residuals(x)
+        h = self.setting.spacing_m
+        return h * float(r @ r), 2.0 * h * r[:, None] * jacobian
+
+
+def banded_product(bands: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Returns A x (n, k) for the symmetric pentadiagonal A with lower `bands` (3, n)."""
+    out = bands[0][:, None] * x
+    for k in (1, 2):
+        if len(x) > k:
+            band = bands[k, : len(x) - k][:, None]
+            out[k:] += band * x[:-k]
+            out[:-k] += band * x[k:]
+    return out
+
+
+def difference_bands(n: int, stencil: tuple[float, ...]) -> NDArray[np.float64]:
+    """Returns the lower bands (3, n) of SᵀS, where S applies the stencil (2 or 3 numbers) to neighbouring points."""
+    bands = np.zeros((3, n))
+    rows = max(n - len(stencil) + 1, 0)
+    for i, a in enumerate(stencil):
+        for j in range(i + 1):
+            bands[i - j, j : j + rows] += a * stencil[j]
+    return bands

@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""O_d: how far the path is from the planned tour."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from walk_trajopt.objectives.base import QuadraticObjective, Setting
+
+
+class Deviation(QuadraticObjective):
+    """h Σ |x_i − x_i⁰|² ≈ ∫ |x − x⁰|² ds; zero on the planned tour itself. [m³]"""
+
+    def __init__(self, setting: Setting) -> None:
+        super().__init__(setting)
+        self.target = setting.start
+        self.bands = np.zeros((3, len(setting.start)))
+        self.bands[0] = setting.spacing_m

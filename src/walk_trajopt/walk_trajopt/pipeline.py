@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""From a planned tour to a smooth path that the walker's body was swept along."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from walk_building.building import Building
+from walk_building.progress import Progress, no_progress
+from walk_trajopt.config import TrajoptConfig
+from walk_trajopt.optimiser import Optimiser
+from walk_trajopt.path import OptimisedPath
+
+_STAGE = "trajectory"
+
+
+def optimise_path(
+    building: Building,
+    polyline: ArrayLike,
+    keypoints: ArrayLike,
+    config: TrajoptConfig | None = None,
+    progress: Progress = no_progress,
+) -> OptimisedPath:
+    """Returns the optimised, checked and, where necessary, repaired path.
+
+    Args:
+        building: Where the walker walks.
+        polyline: (L, 3) the planned tour's eye positions [m].
+        keypoints: (M, 3) eye positions in the order of the tour, which passes them [m].
+        config: Points, weights, solver.
+        progress: Told how far the work is.
+
+    Raises:
+        ParameterError: A polyline of fewer than two different points, numbers that are not finite, or fewer points
+            than keypoints.
+    """
+    progress(_STAGE, 0.0)
+    optimiser = Optimiser(building, polyline, keypoints, config or TrajoptConfig())
+    optimiser.solve()
+    progress(_STAGE, 0.6)
+    path = optimiser.check()
+    progress(_STAGE, 1.0)
+    return path

@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Local repair: where the body does not pass on the optimised path, that stretch goes back towards the planned tour.
+
+The planned tour is free by construction, so a wide enough stretch of it, with its corners as round as they may be,
+always serves; the attempts are ordered from the least change to the most.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_trajopt.check import Sweep, colliding_runs
+from walk_trajopt.curve import rounded
+from walk_trajopt.polyline import Polyline, interpolate
+
+_GAP_M = 0.5  # colliding stretches closer than a step are mended as one
+_STEP_M = 0.1  # spacing of the points of a mended stretch
+_SAME_M = 2e-6  # arc lengths are rounded to micrometres, so that no two points are nearly one
+_RAMPS_M = (0.5, 1.0, 2.0, 4.0, 8.0)  # over which a stretch goes over into its neighbours
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Way:
+    """A polyline whose points know which arc length of the planned tour they belong to."""
+
+    points: NDArray[np.float64]  # (m, 3) [m]
+    tour_m: NDArray[np.float64]  # (m,) rising
+
+    def between(self, low_m: float, high_m: float) -> Way:
+        """Returns the piece whose arc lengths on the tour are from `low_m` to `high_m`."""
+        inside = (self.tour_m >= low_m - _SAME_M) & (self.tour_m <= high_m + _SAME_M)
+        return Way(points=self.points[inside], tour_m=self.tour_m[inside])
+
+    def replaced(self, piece: Way) -> Way:
+        """Returns the way with what lies between the ends of `piece` replaced by it."""
+        before = self.tour_m < piece.tour_m[0] - _SAME_M
+        after = self.tour_m > piece.tour_m[-1] + _SAME_M
+        return Way(
+            points=np.concatenate([self.points[before], piece.points, self.points[after]]),
+            tour_m=np.concatenate([self.tour_m[before], piece.tour_m, self.tour_m[after]]),
+        )
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Mended:
+    """A stretch of the tour that did not pass."""
+
+    start_m: float  # arc length on the planned tour
+    end_m: float
+    free: bool  # passes now
+    how: str
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class _Attempt:
+    share: float  # how far towards the planned tour
+    radius_m: float  # over which the tour's corners are rounded
+    how: str
+
+
+_ATTEMPTS = (
+    _Attempt(0.5, 0.4, "moved halfway to the planned tour"),
+    _Attempt(1.0, 0.4, "moved to the planned tour with its corners rounded"),
+    _Attempt(1.0, 0.15, "moved to the planned tour with its corners slightly rounded"),
+    _Attempt(1.0, 0.0, "moved to the planned tour"),
+)
+
+
+def repair(
+    way: Way, tour: Polyline, keep_m: NDArray[np.float64], sweep: Sweep, window_m: tuple[float, float]
+) -> tuple[Way, list[Mended]]:
+    """Mends every stretch that does not pass.
+
+    Args:
+        way: The optimised path.
+        tour: The planned polyline, by whose arc length the way is parametrised.
+        keep_m: Arc lengths on the tour that must stay points of the way: those of the keypoints.
+        sweep: The check.
+        window_m: Arc lengths on the tour outside of which the way is known to pass and is left alone.
+
+    Returns:
+        The way, and what was done about each stretch, `free` telling with what success.
+    """
+    inside = (way.tour_m[:-1] < window_m[1]) & (way.tour_m[1:] > window_m[0])
+    free = np.ones(len(inside), bool)
+    first, last = (np.flatnonzero(inside)[[0, -1]]) if inside.any() else (0, -1)
+    free[first : last + 1] = sweep.segments_free(way.points[first : last + 2])
+    done = []
+    for start, end in colliding_runs(free, way.tour_m, _GAP_M):
+        way, mended = _mend(way, tour, keep_m, sweep, (start, end))
+        done.append(mended)
+    return way, done
+
+
+def _mend(
+    way: Way, tour: Polyline, keep_m: NDArray[np.float64], sweep: Sweep, core_m: tuple[float, float]
+) -> tuple[Way, Mended]:
+    start, end = core_m
+    planned = _piece(way, tour, keep_m, core_m, 1e-3, _ATTEMPTS[-1])
+    inner = (planned.tour_m >= start) & (planned.tour_m <= end)
+    tour_free = bool(sweep.segments_free(planned.points[inner]).all())
+    for ramp in (*_RAMPS_M, tour.length_m):
+        for attempt in _ATTEMPTS:
+            piece = _piece(way, tour, keep_m, core_m, ramp, attempt)
+            if sweep.segments_free(piece.points).all():
+                return way.replaced(piece), Mended(start_m=start, end_m=end, free=True, how=attempt.how)
+        if not tour_free:
+            break
+    how = "the body touches the building here, and on the planned tour too"
+    return way, Mended(start_m=start, end_m=end, free=False, how=how)
+
+
+def _piece(
+    way: Way,
+    tour: Polyline,
+    keep_m: NDArray[np.float64],
+    core_m: tuple[float, float],
+    ramp_m: float,
+    attempt: _Attempt,
+) -> Way:
+    """Returns the stretch, drawn towards the tour over its core and going over into the way on both sides."""
+    low, high = max(core_m[0] - ramp_m, 0.0), min(core_m[1] + ramp_m, tour.length_m)
+    grid = np.linspace(low, high, int(np.ceil((high - low) / _STEP_M)) + 1)
+    marks = np.concatenate([grid, tour.arc_m, way.tour_m, keep_m])
+    arc = np.unique(np.round(marks[(marks >= low) & (marks <= high)], 6))
+    # The ends of the tour are ends of the way: there is nothing to go over into.
+    rise = (arc - low) / max(core_m[0] - low, 1e-9) if low > 0.0 else np.ones(len(arc))
+    fall = (high - arc) / max(high - core_m[1], 1e-9) if high < tour.length_m else np.ones(len(arc))
+    u = np.clip(np.minimum(rise, fall), 0.0, 1.0)
+    share = attempt.share * (u * u * (3.0 - 2.0 * u))[:, None]
+    target = rounded(arc, tour.arc_m, tour.points, attempt.radius_m) if attempt.radius_m > 0.0 else tour.at(arc)
+    own = interpolate(arc, way.tour_m, way.points)
+    return Way(points=(1.0 - share) * own + share * target, tour_m=arc)
