@@ -43,21 +43,23 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
     unit_m = _length_unit(file, path)
     products = [product for product in _with_shape(file, options) if not _ignored(product, part_filter)]
     meshes = _tessellate(file, products, unit_m, progress)
-    spaces, doors, parts = [], [], []
+    spaces, parts = [], []
+    leaves: dict[int, list[RawMesh]] = {}
     for product in products:
         mesh = meshes.get(product.id())
         if mesh is None:
             continue
-        if product.is_a("IfcSpace"):
+        door = _door_of(product)
+        if door is not None:
+            leaves.setdefault(door.id(), []).append(mesh)
+        elif product.is_a("IfcSpace"):
             spaces.append(mesh)
-        elif _belongs_to_door(product):
-            doors.append(mesh)
         else:
             parts.append(mesh)
     return RawModel(
         parts=tuple(parts),
         spaces=tuple(spaces),
-        doors=tuple(doors),
+        doors=tuple(_whole_door(file.by_id(door), pieces) for door, pieces in leaves.items()),
         storeys=_storeys(file),
         units_m=unit_m,
         up="z",
@@ -177,9 +179,20 @@ def _storey_name(product: Any) -> str:
     return ""
 
 
-def _belongs_to_door(product: Any) -> bool:
-    """Says whether the product is a door or a piece of one (leaf, frame, panel)."""
-    return any(ancestor.is_a("IfcDoor") for ancestor in _ancestors(product))
+def _door_of(product: Any) -> Any | None:
+    """Returns the door that the product is or is a piece of (leaf, frame, panel)."""
+    return next((ancestor for ancestor in _ancestors(product) if ancestor.is_a("IfcDoor")), None)
+
+
+def _whole_door(door: Any, pieces: list[RawMesh]) -> RawMesh:
+    """Returns the door with the vertices of all its pieces; its faces matter to nobody."""
+    return RawMesh(
+        name=_name(door),
+        kind=door.is_a(),
+        storey=_storey_name(door),
+        vertices=np.concatenate([piece.vertices for piece in pieces]),
+        faces=np.empty((0, 3), dtype=np.int32),
+    )
 
 
 def _storeys(file: Any) -> tuple[tuple[str, float], ...]:

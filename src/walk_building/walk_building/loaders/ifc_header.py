@@ -20,6 +20,7 @@ _SAME_AS = {
     **dict.fromkeys(("IFC4_ADD1", "IFC4_ADD2", "IFC4_ADD2_TC1"), "IFC4"),
     **dict.fromkeys(("IFC4X3", "IFC4X3_ADD1", "IFC4X3_TC1"), "IFC4X3_ADD2"),
 }
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 # A header longer than this is none.
 _HEADER_BYTES = 65536
@@ -53,11 +54,14 @@ def read_step(path: Path, known: Collection[str]) -> str:
 
 
 def _text(data: bytes) -> str:
-    # STEP is ASCII with escapes, but exporters write names as they come.
+    """Returns the file as ASCII: exporters write names as they come, and the engine drops what is not escaped."""
+    if data.isascii():
+        return data.decode("ascii")
     try:
-        return data.decode("utf-8")
+        text = data.decode("utf-8")
     except UnicodeDecodeError:
-        return data.decode("latin-1")
+        text = data.decode("latin-1")
+    return _NOT_ASCII.sub(lambda found: "\\X4\\" + found.group().encode("utf-32-be").hex().upper() + "\\X0\\", text)
 
 
 def _unzipped(path: Path) -> bytes:

@@ -1,0 +1,327 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""IFC files made here, of known sizes, in several units and schemas."""
+
+from __future__ import annotations
+
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import ifcopenshell
+import ifcopenshell.guid
+import numpy as np
+import pytest
+from walk_building.errors import BuildingError
+from walk_building.loaders import load_model
+from walk_building.model import LoadOptions
+
+_UNIT_M = {"metre": 1.0, "millimetre": 0.001, "foot": 0.3048}
+
+
+class IfcScene:
+    """A tiny IFC writer: boxes given in metres, placed in storeys, written in the file's unit."""
+
+    def __init__(
+        self, schema: str = "IFC4", unit: str = "metre", origin: tuple[float, float, float] = (0, 0, 0)
+    ) -> None:
+        self.file = ifcopenshell.file(schema=schema)
+        self.unit_m = _UNIT_M[unit]
+        self.context = self.make(
+            "IfcGeometricRepresentationContext",
+            ContextIdentifier="Body",
+            ContextType="Model",
+            CoordinateSpaceDimension=3,
+            Precision=1e-5,
+            WorldCoordinateSystem=self.axes((0, 0, 0)),
+        )
+        project = self.rooted("IfcProject", "project")
+        project.RepresentationContexts = [self.context]
+        project.UnitsInContext = self.make("IfcUnitAssignment", Units=[self._length(unit)])
+        self.building = self.rooted("IfcBuilding", "building", ObjectPlacement=self.placement(None, origin))
+        self.aggregate(project, self.building)
+
+    def make(self, kind: str, **attributes: Any) -> Any:
+        return self.file.create_entity(kind, **attributes)
+
+    def rooted(self, kind: str, name: str, **attributes: Any) -> Any:
+        return self.make(kind, GlobalId=ifcopenshell.guid.new(), Name=name, **attributes)
+
+    def _length(self, unit: str) -> Any:
+        prefix = "MILLI" if unit == "millimetre" else None
+        metre = self.make("IfcSIUnit", UnitType="LENGTHUNIT", Prefix=prefix, Name="METRE")
+        if unit != "foot":
+            return metre
+        value = self.file.create_entity("IfcLengthMeasure", 0.3048)
+        factor = self.make("IfcMeasureWithUnit", ValueComponent=value, UnitComponent=metre)
+        exponents = self.file.create_entity("IfcDimensionalExponents", 1, 0, 0, 0, 0, 0, 0)
+        return self.make(
+            "IfcConversionBasedUnit", Dimensions=exponents, UnitType="LENGTHUNIT", Name="FOOT", ConversionFactor=factor
+        )
+
+    def point(self, *coordinates: float) -> Any:
+        return self.make("IfcCartesianPoint", Coordinates=[float(c) / self.unit_m for c in coordinates])
+
+    def axes(self, origin: tuple[float, float, float]) -> Any:
+        return self.make("IfcAxis2Placement3D", Location=self.point(*origin))
+
+    def placement(self, parent: Any, origin: tuple[float, float, float]) -> Any:
+        return self.make("IfcLocalPlacement", PlacementRelTo=parent, RelativePlacement=self.axes(origin))
+
+    def aggregate(self, whole: Any, *parts: Any) -> None:
+        self.rooted("IfcRelAggregates", "parts", RelatingObject=whole, RelatedObjects=list(parts))
+
+    def storey(self, name: str, elevation_m: float) -> Any:
+        storey = self.rooted(
+            "IfcBuildingStorey",
+            name,
+            Elevation=elevation_m / self.unit_m,
+            ObjectPlacement=self.placement(self.building.ObjectPlacement, (0, 0, elevation_m)),
+        )
+        self.aggregate(self.building, storey)
+        return storey
+
+    def box_shape(self, size: tuple[float, float, float]) -> Any:
+        corner = self.make("IfcAxis2Placement2D", Location=self.point(size[0] / 2, size[1] / 2))
+        profile = self.make(
+            "IfcRectangleProfileDef",
+            ProfileType="AREA",
+            Position=corner,
+            XDim=size[0] / self.unit_m,
+            YDim=size[1] / self.unit_m,
+        )
+        up = self.make("IfcDirection", DirectionRatios=[0.0, 0.0, 1.0])
+        solid = self.make(
+            "IfcExtrudedAreaSolid",
+            SweptArea=profile,
+            Position=self.axes((0, 0, 0)),
+            ExtrudedDirection=up,
+            Depth=size[2] / self.unit_m,
+        )
+        return self.make(
+            "IfcShapeRepresentation",
+            ContextOfItems=self.context,
+            RepresentationIdentifier="Body",
+            RepresentationType="SweptSolid",
+            Items=[solid],
+        )
+
+    def box(
+        self,
+        kind: str,
+        name: str,
+        storey: Any,
+        low: tuple[float, float, float],
+        size: tuple[float, float, float],
+        **attributes: Any,
+    ) -> Any:
+        shape = self.make("IfcProductDefinitionShape", Representations=[self.box_shape(size)])
+        product = self.rooted(
+            kind,
+            name,
+            ObjectPlacement=self.placement(storey.ObjectPlacement, low),
+            Representation=shape,
+            **attributes,
+        )
+        if kind == "IfcSpace":
+            self.aggregate(storey, product)
+        elif kind != "IfcOpeningElement":
+            self.rooted("IfcRelContainedInSpatialStructure", "in", RelatingStructure=storey, RelatedElements=[product])
+        return product
+
+    def write(self, path: Path) -> Path:
+        self.file.write(str(path))
+        return path
+
+
+def two_storeys(**settings: Any) -> IfcScene:
+    """6 x 4 m, floors 0.2 m thick at z 0 and 3, a wall with a door, a window, a chair and a space."""
+    scene = IfcScene(**settings)
+    ground, upper = scene.storey("Ground", 0.0), scene.storey("Upper", 3.0)
+    scene.box("IfcSlab", "floor 0", ground, (0, 0, -0.2), (6, 4, 0.2))
+    scene.box("IfcSlab", "floor 1", upper, (0, 0, -0.2), (6, 4, 0.2))
+    wall = scene.box("IfcWall", "wall", ground, (0, 0, 0), (6, 0.2, 2.8))
+    opening = scene.box("IfcOpeningElement", "hole", ground, (1, -0.5, 0), (0.9, 1.2, 2.1))
+    scene.rooted("IfcRelVoidsElement", "voids", RelatingBuildingElement=wall, RelatedOpeningElement=opening)
+    door = scene.box("IfcDoor", "front door", ground, (1, 0, 0), (0.9, 0.1, 2.1))
+    scene.rooted("IfcRelFillsElement", "fills", RelatingOpeningElement=opening, RelatedBuildingElement=door)
+    scene.box("IfcWindow", "window", ground, (4, 3.9, 1), (1, 0.1, 1))
+    scene.box("IfcFurnishingElement", "chair", ground, (3, 2, 0), (0.5, 0.5, 0.9))
+    scene.box("IfcSpace", "G01", ground, (0, 0.2, 0), (6, 3.8, 2.8), LongName="Hall")
+    return scene
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4", "IFC4X3"])
+@pytest.mark.parametrize("unit", list(_UNIT_M))
+def test_boxes_come_out_with_their_sizes_in_metres(tmp_path: Path, schema: str, unit: str) -> None:
+    model = load_model(two_storeys(schema=schema, unit=unit).write(tmp_path / "house.ifc"))
+    np.testing.assert_allclose(model.vertices.min(axis=0), [0, 0, -0.2], atol=1e-9)
+    np.testing.assert_allclose(model.vertices.max(axis=0), [6, 4, 3], atol=1e-9)
+    assert model.units_m == pytest.approx(_UNIT_M[unit])
+    assert [(s.name, s.elevation_m) for s in model.storeys] == [("Ground", 0.0), ("Upper", pytest.approx(3.0))]
+    assert model.warnings == ()
+
+
+def test_doors_stand_open_and_spaces_are_no_obstacles(tmp_path: Path) -> None:
+    model = load_model(two_storeys().write(tmp_path / "house.ifc"))
+    assert sorted(part.name for part in model.parts) == ["chair", "floor 0", "floor 1", "wall", "window"]
+    (door,) = model.doors
+    assert (door.name, door.storey) == ("front door", "Ground")
+    np.testing.assert_allclose(door.centre, [1.45, 0.05, 1.05], atol=1e-9)
+    np.testing.assert_allclose(door.size, [0.9, 0.1, 2.1], atol=1e-9)
+    (space,) = model.spaces
+    assert (space.name, space.long_name, space.storey) == ("G01", "Hall", "Ground")
+    corners = space.vertices[space.faces]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume == pytest.approx(6 * 3.8 * 2.8)
+
+
+def test_wall_keeps_the_cut_of_its_door(tmp_path: Path) -> None:
+    model = load_model(two_storeys().write(tmp_path / "house.ifc"))
+    (wall,) = [part for part in model.parts if part.kind == "IfcWall"]
+    corners = model.vertices[model.faces[wall.first_face : wall.first_face + wall.n_faces]]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume == pytest.approx(0.2 * (6 * 2.8 - 0.9 * 2.1))
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4"])
+def test_furniture_can_be_left_out(tmp_path: Path, schema: str) -> None:
+    scene = two_storeys(schema=schema)
+    kind = "IfcFurnishingElement" if schema == "IFC2X3" else "IfcFurniture"
+    scene.box(kind, "table", scene.file.by_type("IfcBuildingStorey")[0], (4, 2, 0), (1, 1, 0.7))
+    model = load_model(scene.write(tmp_path / "house.ifc"), LoadOptions(furniture=False))
+    assert sorted(part.name for part in model.parts) == ["floor 0", "floor 1", "wall", "window"]
+
+
+def test_ignore_drops_by_name_and_by_class(tmp_path: Path) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    model = load_model(path, LoadOptions(ignore="^chair$|IfcWindow|IfcSpace"))
+    assert sorted(part.name for part in model.parts) == ["floor 0", "floor 1", "wall"]
+    assert model.spaces == ()
+
+
+@pytest.mark.parametrize("unit", ["metre", "millimetre"])
+def test_far_building_is_moved_near_and_keeps_its_millimetres(tmp_path: Path, unit: str) -> None:
+    origin = (3_512_345.678, 5_412_345.123, 432.1)
+    near = load_model(two_storeys().write(tmp_path / "near.ifc"))
+    far = load_model(two_storeys(unit=unit, origin=origin).write(tmp_path / "far.ifc"))
+    assert np.abs(far.vertices).max() < 1000
+    assert np.array_equal(far.offset_m, np.round(far.offset_m)) and far.offset_m[2] == 0.0
+    np.testing.assert_allclose(far.vertices + far.offset_m, near.vertices + np.array(origin), atol=1e-6)
+    np.testing.assert_allclose(far.doors[0].centre + far.offset_m, near.doors[0].centre + np.array(origin), atol=1e-6)
+    assert far.storeys[1].elevation_m == pytest.approx(432.1 + 3.0)
+
+
+def test_far_coordinates_inside_the_shapes_keep_their_millimetres(tmp_path: Path) -> None:
+    scene = IfcScene()
+    storey = scene.storey("Ground", 0.0)
+    slab = scene.box("IfcSlab", "floor", storey, (0, 0, 0), (6, 4, 0.2))
+    slab.Representation.Representations[0].Items[0].Position = scene.axes((3_512_345.678, 5_412_345.123, 0))
+    model = load_model(scene.write(tmp_path / "far.ifc"))
+    low = model.vertices.min(axis=0) + model.offset_m
+    np.testing.assert_allclose(low, [3_512_345.678, 5_412_345.123, 0], atol=1e-5)
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), [6, 4, 0.2], atol=1e-5)
+
+
+def test_mapped_items_are_placed_at_every_product(tmp_path: Path) -> None:
+    scene = IfcScene()
+    storey = scene.storey("Ground", 0.0)
+    origin = scene.make(
+        "IfcRepresentationMap", MappingOrigin=scene.axes((0, 0, 0)), MappedRepresentation=scene.box_shape((1, 1, 1))
+    )
+    for i in range(3):
+        column = scene.box("IfcColumn", f"column {i}", storey, (10.0 * i, 0, 0), (1, 1, 1))
+        target = scene.make("IfcCartesianTransformationOperator3D", LocalOrigin=scene.point(0, 0, 0), Scale=1.0)
+        item = scene.make("IfcMappedItem", MappingSource=origin, MappingTarget=target)
+        column.Representation.Representations[0].Items = [item]
+        column.Representation.Representations[0].RepresentationType = "MappedRepresentation"
+    model = load_model(scene.write(tmp_path / "columns.ifc"))
+    assert [part.n_faces for part in model.parts] == [12, 12, 12]
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), [21, 1, 1])
+
+
+def test_pieces_of_a_door_are_left_out_with_it(tmp_path: Path) -> None:
+    scene = two_storeys()
+    storey = scene.file.by_type("IfcBuildingStorey")[0]
+    door = scene.box("IfcDoor", "gate", storey, (3, 0, 0), (1, 0.1, 2))
+    leaf = scene.box("IfcPlate", "leaf", storey, (3, 0, 0), (1, 0.05, 2))
+    contained = [r for r in leaf.ContainedInStructure]
+    for relation in contained:
+        scene.file.remove(relation)
+    scene.aggregate(door, leaf)
+    model = load_model(scene.write(tmp_path / "house.ifc"))
+    assert "leaf" not in {part.name for part in model.parts}
+    assert {door.name for door in model.doors} == {"front door", "gate"}
+
+
+def test_storeys_that_are_all_placed_at_zero_take_their_declared_elevation(tmp_path: Path) -> None:
+    scene = two_storeys(unit="millimetre")
+    for storey in scene.file.by_type("IfcBuildingStorey"):
+        storey.ObjectPlacement.RelativePlacement = scene.axes((0, 0, 0))
+    model = load_model(scene.write(tmp_path / "house.ifc"))
+    assert [s.elevation_m for s in model.storeys] == pytest.approx([0.0, 3.0])
+
+
+@pytest.mark.parametrize("name", ["IFC2X_FINAL", "IFC2X3_TC1"])
+def test_old_names_of_the_schema_are_read_as_ifc2x3(tmp_path: Path, name: str) -> None:
+    path = two_storeys(schema="IFC2X3").write(tmp_path / "new.ifc")
+    old = tmp_path / "old.ifc"
+    old.write_text(path.read_text().replace("FILE_SCHEMA(('IFC2X3'))", f"FILE_SCHEMA(('{name}'))"))
+    assert name in old.read_text()
+    np.testing.assert_array_equal(load_model(old).vertices, load_model(path).vertices)
+
+
+def test_zipped_ifc_is_read(tmp_path: Path) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    zipped = tmp_path / "house.ifczip"
+    with zipfile.ZipFile(zipped, "w") as archive:
+        archive.write(path, "house.ifc")
+    np.testing.assert_array_equal(load_model(zipped).faces, load_model(path).faces)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+def test_raw_umlauts_in_names_are_read(tmp_path: Path, encoding: str) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    path.write_bytes(path.read_text().replace("'chair'", "'Büro'").encode(encoding))
+    assert "Büro" in {part.name for part in load_model(path).parts}
+
+
+def test_unknown_schema_is_refused_with_the_known_ones(tmp_path: Path) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    path.write_text(path.read_text().replace("'IFC4'", "'IFC4X1'"))
+    with pytest.raises(BuildingError, match=r"schema 'IFC4X1' cannot be read; .*IFC2X3, IFC4"):
+        load_model(path)
+
+
+def test_cut_short_file_is_refused(tmp_path: Path) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    path.write_bytes(path.read_bytes()[:-200])
+    with pytest.raises(BuildingError, match="cut short"):
+        load_model(path)
+
+
+def test_file_without_products_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(BuildingError, match="no triangles"):
+        load_model(IfcScene().write(tmp_path / "empty.ifc"))
+
+
+def test_unreadable_geometry_is_named(tmp_path: Path) -> None:
+    scene = two_storeys()
+    scene.file.by_type("IfcWindow")[0].Representation.Representations[0].Items[0].SweptArea.XDim = -1.0
+    model = load_model(scene.write(tmp_path / "house.ifc"))
+    if "window" not in {part.name for part in model.parts}:
+        assert any("'window'" in warning for warning in model.warnings)
+
+
+def test_engine_writes_nothing_to_the_terminal(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    scene = two_storeys()
+    scene.file.by_type("IfcSlab")[0].Representation.Representations[0].Items[0].Depth = 0.0
+    load_model(scene.write(tmp_path / "house.ifc"))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_override_of_the_unit_beats_the_file(tmp_path: Path) -> None:
+    path = two_storeys(unit="millimetre").write(tmp_path / "house.ifc")
+    model = load_model(path, LoadOptions(units_m=0.002))
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), [12, 8, 6.4])
+    assert model.storeys[1].elevation_m == pytest.approx(6.0)
