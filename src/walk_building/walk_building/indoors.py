@@ -45,35 +45,42 @@ def declared_space(
     faces = np.concatenate([s.faces + offset for s, offset in zip(spaces, base, strict=False)]).astype(np.int32)
     owner = np.repeat(np.arange(len(spaces)), [len(s.faces) for s in spaces]).astype(np.int32)
     hits = cast_columns(columns, vertices, faces)
+    corners = vertices[faces]
+    sign = np.sign(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]).astype(np.int8)
     found = np.full(len(z), -1, np.int32)
     for height in _PROBE_HEIGHTS_M:
         missing = np.flatnonzero(found < 0)
-        found[missing] = _space_at(hits.start, hits.z, owner[hits.face], len(spaces), column[missing], z[missing] + height)
+        found[missing] = _space_at(
+            hits.start, hits.z, owner[hits.face], sign[hits.face], len(spaces), column[missing], z[missing] + height
+        )
     return found
 
 
 @numba.njit(cache=True, nogil=True)
-def _space_at(start, hit_z, owner, n_spaces, column, z):
-    """Index of the space around each point: the one whose surface is crossed an odd number of times above it."""
+def _space_at(start, hit_z, owner, sign, n_spaces, column, z):
+    """Index of the space around each point: the one whose faces above it point up and down unequally often.
+
+    The winding number along a ray, which unlike parity allows a space made of solids that touch.
+    """
     found = np.full(len(z), -1, np.int32)
-    last = np.full(n_spaces, np.inf)
-    odd = np.zeros(n_spaces, np.bool_)
+    last = np.full((n_spaces, 3), np.inf)
+    winding = np.zeros(n_spaces, np.int64)
     for p in range(len(z)):
         begin, end = start[column[p]], start[column[p] + 1]
-        k = end - 1
-        while k >= begin and hit_z[k] > z[p]:
-            s = owner[k]
+        first = end
+        while first > begin and hit_z[first - 1] > z[p]:
+            first -= 1
+            s, up = owner[first], sign[first]
             # A line through an edge meets both faces beside it at one height; that is one crossing.
-            if abs(last[s] - hit_z[k]) > 1e-6:
-                odd[s] = not odd[s]
-            last[s] = hit_z[k]
-            k -= 1
-        for m in range(k + 1, end):
-            if odd[owner[m]] and found[p] < 0:
-                found[p] = owner[m]
-        for m in range(k + 1, end):
-            odd[owner[m]] = False
-            last[owner[m]] = np.inf
+            if abs(last[s, up + 1] - hit_z[first]) > 1e-6:
+                winding[s] += up
+            last[s, up + 1] = hit_z[first]
+        for k in range(first, end):
+            if winding[owner[k]] != 0 and found[p] < 0:
+                found[p] = owner[k]
+        for k in range(first, end):
+            winding[owner[k]] = 0
+            last[owner[k]] = np.inf
     return found
 
 

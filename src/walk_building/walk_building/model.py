@@ -46,6 +46,11 @@ class Space:
     vertices: NDArray[np.float64]  # (V, 3) [m]
     faces: NDArray[np.int32]  # (F, 3)
 
+    @property
+    def label(self) -> str:
+        """What a person would call it: what it is for, and its number."""
+        return f"{self.long_name} {self.name}".strip() or "unnamed space"
+
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class Door:

@@ -66,7 +66,7 @@ def find_rooms(
             base = np.array([declared.vertices[:, 2].min()])
             storey = int(storey_of(storeys, base)[0])
         room[members] = len(rooms)
-        found = _room(declared.name, storey, members, declared.vertices.mean(axis=0), floor)
+        found = _room(declared.label, storey, members, declared.vertices.mean(axis=0), floor)
         rooms.append(dataclasses.replace(found, reason=_OUTDOORS) if under_the_sky else found)
 
     left = indoor & (space < 0) & _without_spaces(model, storeys, places[:, 2])
