@@ -1,0 +1,43 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a user can tune about the tour."""
+
+from __future__ import annotations
+
+import dataclasses
+
+from walk_building.config import Config, param
+
+METHODS = ("auto", "exact", "local_search", "mst_dfs", "given")
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class SequencerConfig(Config):
+    """How legs are planned and in which order the keypoints are visited."""
+
+    milestones: int = param(
+        0, "milestones of the roadmap; 0 takes 800 and one more per square metre, at most 6000", low=0, high=20000
+    )
+    seed: int = param(1, "seed of the roadmap and of the order's random restarts", low=0, high=2**31 - 1)
+    method: str = param(
+        "auto",
+        "how the order is found: auto is exact up to 14 keypoints and local_search above; given keeps the user's",
+        choices=METHODS,
+    )
+    start: int = param(-1, "index of the keypoint to start at; -1 leaves it free", low=-1)
+    end: int = param(-1, "index of the keypoint to end at; -1 leaves it free", low=-1)
+    comfort_m: float = param(
+        0.3, "distance to the walls, beyond the body, from which a leg has nothing to gain", unit="m", low=0.0, high=2.0
+    )
+    comfort_weight: float = param(
+        1.0, "price of a metre walked at a wall, on top of its length; 0 plans the shortest legs", low=0.0, high=10.0
+    )
+    snap_m: float = param(
+        0.5, "farthest a keypoint may be from a place to stand on and still count", unit="m", low=0.0, high=3.0
+    )
+    slope_break_m: float = param(
+        0.02, "largest height by which a leg's straight pieces leave the floor", unit="m", low=0.001, high=0.1
+    )
+    kicks: int = param(
+        400, "random restarts of the local search; each starts from the best order so far", low=0, high=100000
+    )

@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""From keypoints to a tour."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from walk_building.building import Building
+from walk_building.errors import ParameterError
+from walk_building.progress import Progress, no_progress
+
+from walk_sequencer.config import SequencerConfig
+from walk_sequencer.order import ORDERS, resolve_method
+from walk_sequencer.pairs import plan_pairs
+from walk_sequencer.placing import floor_points, part_of_tour, place_keypoints
+from walk_sequencer.roadmap import Roadmap, build_roadmap
+from walk_sequencer.tour import Leg, Stand, Tour, Unreachable, polyline_length_m
+
+
+def plan_tour(
+    building: Building,
+    keypoints: ArrayLike,
+    config: SequencerConfig | None = None,
+    progress: Progress = no_progress,
+    previous: Tour | None = None,
+) -> Tour:
+    """Plans the walks between all keypoints and a short order to visit them in.
+
+    Args:
+        building: Where to walk.
+        keypoints: (K, 3) eye positions [m]; none is fine.
+        config: How.
+        progress: Told of the stages roadmap, legs and order.
+        previous: An earlier tour of this building. Its roadmap, and its legs between keypoints that stayed where
+            they were, are used again where they fit; the result is the same without, bit for bit.
+
+    Returns:
+        The tour. Keypoints that cannot be reached are in `unreachable`, with the reason, and not in the order.
+
+    Raises:
+        ParameterError: Keypoints that are no finite (K, 3) array, a start or end that is no keypoint.
+    """
+    config = config or SequencerConfig()
+    floor = floor_points(building, keypoints)
+    _check_ends(config, len(floor))
+    mask = part_of_tour(building, floor, config)
+    if not mask.any():
+        reason = "the building has no floor indoors to start on"
+        return _assemble(len(floor), {}, tuple(Unreachable(index=k, reason=reason) for k in range(len(floor))), config)
+    roadmap = _usable(previous, building, mask, config)
+    if roadmap is None:
+        roadmap = build_roadmap(building.surface, building.walker, mask, config, progress)
+    stands, unreachable = place_keypoints(building, roadmap, floor, config)
+    pairs = _plan_legs(roadmap, stands, previous, progress)
+    return _assemble(len(floor), stands, unreachable, config, roadmap, pairs, progress)
+
+
+def _check_ends(config: SequencerConfig, count: int) -> None:
+    for name, value in (("start", config.start), ("end", config.end)):
+        if value >= count:
+            raise ParameterError(name, value, f"the index of one of {count} keypoints, or -1")
+    if config.start == config.end >= 0:
+        raise ParameterError("end", config.end, "another keypoint than the start, or -1")
+
+
+def _usable(
+    previous: Tour | None, building: Building, mask: NDArray[np.bool_], config: SequencerConfig
+) -> Roadmap | None:
+    roadmap = previous.roadmap if previous is not None else None
+    if roadmap is None or roadmap.surface is not building.surface or roadmap.walker != building.walker:
+        return None
+    decisive = ("milestones", "seed", "comfort_m", "comfort_weight", "slope_break_m")
+    same = all(getattr(roadmap.config, name) == getattr(config, name) for name in decisive)
+    return roadmap if same and np.array_equal(roadmap.mask, mask) else None
+
+
+def _plan_legs(
+    roadmap: Roadmap, stands: dict[int, Stand], previous: Tour | None, progress: Progress
+) -> tuple[Leg, ...]:
+    """Returns a leg for every pair of stands, those of the previous tour where neither end has moved."""
+    known: dict[tuple[Stand, Stand], Leg] = {}
+    if previous is not None and previous.roadmap is roadmap:
+        for leg in previous.pairs:
+            a, b = previous.stand_of[leg.start], previous.stand_of[leg.goal]
+            known[a, b] = leg
+    names = sorted(stands)
+    pairs = [(i, j) for at, i in enumerate(names) for j in names[at + 1 :]]
+    legs: dict[tuple[int, int], Leg] = {}
+    for i, j in pairs:
+        leg = known.get((stands[i], stands[j]))
+        if leg is not None:
+            legs[i, j] = Leg(start=i, goal=j, points=leg.points, length_m=leg.length_m)
+    missing = [pair for pair in pairs if pair not in legs]
+    index = {name: at for at, name in enumerate(names)}
+    planned = plan_pairs(roadmap, [stands[k] for k in names], [(index[i], index[j]) for i, j in missing], progress)
+    for (i, j), leg in zip(missing, planned, strict=True):
+        legs[i, j] = Leg(start=i, goal=j, points=leg.points, length_m=leg.length_m)
+    return tuple(legs[pair] for pair in pairs)
+
+
+def _assemble(
+    count: int,
+    stands: dict[int, Stand],
+    unreachable: tuple[Unreachable, ...],
+    config: SequencerConfig,
+    roadmap: Roadmap | None = None,
+    pairs: Sequence[Leg] = (),
+    progress: Progress = no_progress,
+) -> Tour:
+    lengths = np.full((count, count), np.inf)
+    np.fill_diagonal(lengths, 0.0)
+    for leg in pairs:
+        lengths[leg.start, leg.goal] = lengths[leg.goal, leg.start] = leg.length_m
+    progress("order", 0.0)
+    names = np.array(sorted(stands), dtype=np.int64)
+    method = resolve_method(config.method, len(names))
+    # An end that cannot be reached is reported as such and is otherwise as good as none.
+    start, end = (int(np.flatnonzero(names == k)[0]) if k in stands else -1 for k in (config.start, config.end))
+    order = names[ORDERS[method](lengths[np.ix_(names, names)], start, end, config)]
+    progress("order", 1.0)
+    by_pair = {(leg.start, leg.goal): leg for leg in pairs}
+    legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in zip(order, order[1:], strict=False))
+    eyes = _eyes(roadmap, stands, count)
+    polyline = _polyline(legs, eyes[order])
+    for array in (lengths, order, eyes, polyline):
+        array.setflags(write=False)
+    return Tour(
+        order=order,
+        unreachable=unreachable,
+        legs=legs,
+        pairs=tuple(pairs),
+        lengths_m=lengths,
+        stands=eyes,
+        polyline=polyline,
+        length_m=polyline_length_m(polyline),
+        method=method,
+        stand_of=stands,
+        roadmap=roadmap,
+    )
+
+
+def _eyes(roadmap: Roadmap | None, stands: dict[int, Stand], count: int) -> NDArray[np.float64]:
+    eyes = np.full((count, 3), np.nan)
+    if roadmap is not None and stands:
+        height = roadmap.walker.eye_height_m
+        rows = np.array([(s.x, s.y, roadmap.ground.xyz[s.place, 2] + height) for s in stands.values()])
+        floor = roadmap.surface.floor_z(rows, height)
+        rows[:, 2] = np.where(np.isfinite(floor), floor + height, rows[:, 2])
+        eyes[list(stands)] = rows
+    return eyes
+
+
+def _polyline(legs: Sequence[Leg], eyes: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Returns the legs in a row (L, 3), without repeated points; the one stand where there is no leg."""
+    if not legs:
+        return eyes.copy()
+    points = np.vstack([leg.points for leg in legs])
+    moved = np.ones(len(points), dtype=bool)
+    moved[1:] = np.any(points[1:] != points[:-1], axis=1)
+    return np.asarray(points[moved])
