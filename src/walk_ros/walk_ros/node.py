@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What every node of the graph shares: its building, its parameters, its worker, its diagnostics."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+from walk_building.building import Building
+from walk_building.config import Config
+from walk_building.errors import BuildingError, WalkError
+from walk_building.model import LoadOptions
+from walk_building.pipeline import load_building
+from walk_building.walker import Walker
+from walk_ros.diagnostics import Diagnostics, error_code
+from walk_ros.errors import MessageError
+from walk_ros.log import forward_logging
+from walk_ros.parameters import ConfigParameters
+from walk_ros.topics import NAMESPACE, TOPICS
+from walk_ros.worker import Superseded, Worker
+
+STOP_S = 3.0
+"""How long a worker may take to end: the longest stretch of a stage between two progress reports, with room."""
+
+
+class WalkNode(Node):
+    """A node that loads the building in its worker and works on it.
+
+    Subclasses say in `work` what is to be done about the newest input and in `fail` what is published when it
+    cannot be done. Both run in the worker's thread.
+    """
+
+    def __init__(self, name: str, configs: Mapping[str, type[Config]], default_building: str) -> None:
+        """Declares the parameters and starts the diagnostics; the worker starts with `start`.
+
+        Args:
+            name: Of the node.
+            configs: Config classes by parameter group, beside `load` and `walker`.
+            default_building: Path that the parameter `building` has by default.
+        """
+        super().__init__(name, namespace=NAMESPACE)
+        forward_logging(self.get_logger())
+        self.diagnostics = Diagnostics(self.get_fully_qualified_name().strip("/"))
+        self.worker = Worker(f"{name} worker", self._step, self.report)
+        self.building: Building | None = None
+        self._loaded_for: tuple[Any, ...] = ()
+        self._last_revision_ns = 0
+        self._revision_lock = threading.Lock()
+        self._publishing: dict[str, Any] = {}
+        self.declare_parameter("building", default_building)
+        groups = {"load": LoadOptions, "walker": Walker, **configs}
+        self.parameters = ConfigParameters(self, groups, self._changed)
+        self.add_post_set_parameters_callback(self._building_changed)
+        # A steady clock: diagnostics go on where simulated time stands still.
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.create_timer(1.0, self.publish_diagnostics, clock=self._steady)
+
+    def start(self) -> None:
+        """Starts the worker; the last thing a subclass's constructor does."""
+        self.worker.start()
+        self.worker.wake()
+
+    def work(self, building: Building) -> None:
+        """Does what the newest input asks for, in the worker's thread."""
+        raise NotImplementedError
+
+    def forget(self) -> None:
+        """Drops what was computed for another building, in the worker's thread."""
+        raise NotImplementedError
+
+    def fail(self, stamp_ns: int) -> None:
+        """Publishes empty, stamped messages, in the worker's thread."""
+        raise NotImplementedError
+
+    def take_in(self, topic: str, store: Callable[[Any], None]) -> None:
+        """Subscribes to a topic of the table; a message that is not sound is reported and otherwise ignored."""
+
+        def callback(msg: Any) -> None:
+            try:
+                store(msg)
+            except MessageError as error:
+                self.get_logger().warning(f"{topic}: {error}")
+                self.diagnostics.note(refused_message=f"{topic}: {error}")
+
+        self.create_subscription(TOPICS[topic].type, topic, callback, TOPICS[topic].qos)
+
+    def offer(self, *topics: str) -> None:
+        """Makes the publishers of topics of the table."""
+        for topic in topics:
+            self._publishing[topic] = self.create_publisher(TOPICS[topic].type, topic, TOPICS[topic].qos)
+
+    def publish(self, topic: str, msg: Any) -> None:
+        """Publishes on a topic that was offered, from any thread; a node that is ending says no more."""
+        if self.context.ok():
+            self._publishing[topic].publish(msg)
+
+    def revision(self) -> int:
+        """Returns a new stamp [ns]: the clock's time, but always later than the one before."""
+        with self._revision_lock:
+            self._last_revision_ns = max(self.get_clock().now().nanoseconds, self._last_revision_ns + 1)
+            return self._last_revision_ns
+
+    def now_s(self) -> float:
+        """Returns a time for measuring latencies [s]."""
+        return time.perf_counter()
+
+    def publish_diagnostics(self) -> None:
+        """Publishes the state now; the timer does so every second."""
+        self.offer_once("/diagnostics")
+        self.publish("/diagnostics", self.diagnostics.to_msg(self.get_clock().now().nanoseconds))
+
+    def offer_once(self, topic: str) -> None:
+        """Offers the topic unless it is offered."""
+        if topic not in self._publishing:
+            self.offer(topic)
+
+    def report(self, error: Exception) -> None:
+        """Logs an error, sets the diagnostics and publishes empty messages; the node lives on."""
+        expected = isinstance(error, WalkError)
+        if expected:
+            self.get_logger().error(str(error))
+        else:
+            logging.getLogger(__name__).error("a step of the worker failed", exc_info=error)
+        code = error_code(error) if expected else "internal_error"
+        sentence = str(error) if expected else f"{type(error).__name__}: {error}"
+        self.diagnostics.state("failed", sentence, level="error", code=code)
+        self.fail(self.revision())
+        self.publish_diagnostics()
+
+    def destroy_node(self) -> None:
+        """Ends the worker, then the node."""
+        self.worker.stop(STOP_S)
+        super().destroy_node()
+
+    def _changed(self, groups: frozenset[str]) -> None:
+        self.worker.wake(supersede=bool(groups & {"load", "walker"}) or self.supersedes(groups))
+
+    def supersedes(self, groups: frozenset[str]) -> bool:
+        """Returns whether a change of these config groups makes the running step pointless."""
+        return bool(groups)
+
+    def _building_changed(self, parameters: list[Parameter]) -> None:
+        if any(p.name == "building" for p in parameters):
+            self.worker.wake(supersede=True)
+
+    def _step(self) -> None:
+        self._load()
+        if self.building is not None:
+            self.work(self.building)
+
+    def _load(self) -> None:
+        path = str(self.get_parameter("building").value)
+        wanted = (path, self.parameters.get("load", LoadOptions), self.parameters.get("walker", Walker))
+        if wanted == self._loaded_for:
+            return
+        self.building = None
+        self.forget()
+        self.diagnostics.state("loading", f"loading {path}")
+        self.diagnostics.building(path, "")
+        if not path:
+            raise BuildingError(Path(), "no building is given; set the parameter 'building' to its file")
+        began = time.perf_counter()
+        try:
+            self.building = load_building(path, wanted[1], wanted[2], self.worker.progress)
+        except Superseded:
+            raise
+        except Exception:
+            # The same file is not tried again until a parameter changes.
+            self._loaded_for = wanted
+            raise
+        self._loaded_for = wanted
+        self.diagnostics.building(path, self.building.hash)
+        self.diagnostics.state("ready")
+        self.get_logger().info(f"loaded {path} in {time.perf_counter() - began:.1f} s")

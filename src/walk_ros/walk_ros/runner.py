@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""From `main` to a clean exit: what every executable does around its node."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Sequence
+
+import rclpy
+from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+from walk_building.errors import WalkError
+from walk_ros.errors import ArgumentError
+
+EXIT_OK = 0
+EXIT_USER = 2
+"""The user's input cannot be used: the sentence is on stderr."""
+
+
+def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> int:
+    """Runs the node until SIGINT, SIGTERM or a shut-down; returns the exit code.
+
+    Args:
+        factory: Makes the node, once the middleware is up.
+        args: Command line; None takes that of the process.
+    """
+    node: Node | None = None
+    code = EXIT_OK
+    try:
+        _start_middleware(args)
+        node = _make(factory)
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    except WalkError as error:
+        sys.stderr.write(f"{error}\n")
+        code = EXIT_USER
+    finally:
+        _clean_up(node)
+    if threading.active_count() > 1:
+        # A worker deep in compiled code: the interpreter's own end would tear memory away under it.
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    return code
+
+
+def _start_middleware(args: Sequence[str] | None) -> None:
+    try:
+        rclpy.init(args=list(args) if args is not None else None)
+    except RuntimeError as error:  # what every error of the layers below is
+        raise ArgumentError(str(error).strip()) from error
+
+
+def _make(factory: Callable[[], Node]) -> Node:
+    try:
+        return factory()
+    except (InvalidParameterTypeException, InvalidParameterValueException) as error:
+        raise ArgumentError(str(error)) from error
+
+
+def _clean_up(node: Node | None) -> None:
+    """Ends the node and the middleware; a second Ctrl-C, as a launcher sends it, does not cut this short."""
+    end_node: list[Callable[[], object]] = [] if node is None else [node.destroy_node]
+    # Signals are ignored twice: the middleware puts Python's own handlers back when it shuts down.
+    for step in [_ignore_signals, *end_node, rclpy.try_shutdown, _ignore_signals]:
+        with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+            step()
+
+
+def _ignore_signals() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)

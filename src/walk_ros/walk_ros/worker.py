@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The thread a node works in, so that its constructor never blocks and its callbacks only store input."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Callable
+
+_log = logging.getLogger(__name__)
+
+
+class Superseded(Exception):  # noqa: N818  not an error: newer input came, or the node ends
+    """Raised inside a step of a worker whose result nobody waits for any more."""
+
+
+class Worker:
+    """Runs one step at a time, as often as there is new input; what came in between is served by one run.
+
+    The step reads the newest input itself, so the latest wins and what it replaced is dropped.
+    """
+
+    def __init__(self, name: str, step: Callable[[], None], on_error: Callable[[Exception], None]) -> None:
+        """Makes the worker; `start` starts it.
+
+        Args:
+            name: Of the thread.
+            step: Does what the newest input asks for.
+            on_error: Called in the thread with what a step raised; the worker lives on.
+        """
+        self._step = step
+        self._on_error = on_error
+        self._wake = threading.Event()
+        self._superseded = threading.Event()
+        self._stopped = threading.Event()
+        # A daemon: a step deep in compiled code must not keep a process alive that was told to end.
+        self._thread = threading.Thread(target=self._run, name=name, daemon=True)
+
+    def start(self) -> None:
+        """Starts the thread."""
+        self._thread.start()
+
+    def wake(self, supersede: bool = False) -> None:
+        """Says that there is new input; with `supersede` a running step ends at its next progress report."""
+        if supersede:
+            self._superseded.set()
+        self._wake.set()
+
+    def stop(self, timeout_s: float) -> bool:
+        """Ends the thread; returns whether it has ended within the time."""
+        self._stopped.set()
+        self.wake(supersede=True)
+        if self._thread.ident is not None:
+            self._thread.join(timeout_s)
+        return not self._thread.is_alive()
+
+    def progress(self, stage: str, fraction: float) -> None:
+        """A `Progress` for what a step calls; raises Superseded once the step is superseded."""
+        if self._superseded.is_set():
+            raise Superseded
+        _log.debug("%s %.0f %%", stage, 100 * fraction)
+
+    def _run(self) -> None:
+        while True:
+            self._wake.wait()
+            if self._stopped.is_set():
+                return
+            # Cleared before the step reads its input: what comes in from here on wakes it again.
+            self._wake.clear()
+            self._superseded.clear()
+            try:
+                self._step()
+            except Superseded:
+                continue
+            except Exception as error:  # a node lives on, whatever one step ran into
+                self._on_error(error)
