@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The places that may become keypoints: where a walker can stand and get to, one a voxel."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from walk_building.building import Building
+
+from walk_importance.errors import NoPlaceError
+from walk_importance.importance_map import ImportanceMap
+
+# The cone reaches this far up and down: over the steps of a stair, but not through a floor.
+STOREY_REACH_M = 1.5
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Candidates:
+    """Eye positions that may become keypoints.
+
+    Attributes:
+        place: (C,) indices into the surface's places.
+        eyes: (C, 3) [m].
+        score: (C,) importance at the eye's voxel.
+        room: (C,) index into the building's rooms, -1 for none.
+    """
+
+    place: NDArray[np.int64]
+    eyes: NDArray[np.float64]
+    score: NDArray[np.float64]
+    room: NDArray[np.int64]
+
+
+def find_candidates(building: Building, importance_map: ImportanceMap) -> Candidates:
+    """Returns, for each voxel a walker's eye can be in, the place in it with the most room around.
+
+    Raises:
+        NoPlaceError: There is no place the walker can reach.
+    """
+    surface = building.surface
+    places = np.flatnonzero(building.reachable)
+    if len(places) == 0:
+        raise NoPlaceError
+    eyes = building.eyes(places)
+    shape = importance_map.grid.shape
+    voxel = np.ravel_multi_index(tuple(importance_map.grid.indices(eyes).T), shape)
+    # Rooms that share a voxel keep a place each.
+    key = voxel * (len(building.rooms) + 1) + surface.room[places] + 1
+    order = np.lexsort((-surface.clearance_m[places], key))
+    _, first = np.unique(key[order], return_index=True)
+    best = np.sort(order[first])
+    return Candidates(
+        place=places[best],
+        eyes=eyes[best],
+        score=importance_map.at(eyes[best]).astype(np.float64),
+        room=surface.room[places[best]].astype(np.int64),
+    )
+
+
+@numba.njit(cache=True, nogil=True)
+def best_candidate(score, allowed):
+    """Returns the allowed candidate with the highest score, the first of several; -1 where none is allowed."""
+    best = -1
+    for i in range(len(score)):
+        if allowed[i] and (best < 0 or score[i] > score[best]):
+            best = i
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
+def lower_by_cone(eyes, score, tip, radius, depth, reach):
+    """Lowers scores (C,) in place by depth (1 - distance / radius) around `tip` (`schmidiger`).
+
+    Only up to `reach` above and below, because the source's Euclidean cone would also lower the storeys above.
+    """
+    for i in range(len(score)):
+        dx, dy, dz = eyes[i, 0] - tip[0], eyes[i, 1] - tip[1], eyes[i, 2] - tip[2]
+        if abs(dz) > reach or abs(dx) > radius or abs(dy) > radius:
+            continue
+        distance = np.sqrt(dx * dx + dy * dy + dz * dz)
+        if distance < radius:
+            score[i] -= depth * (1.0 - distance / radius)

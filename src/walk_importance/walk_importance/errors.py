@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What can go wrong with an importance map and its keypoints."""
+
+from __future__ import annotations
+
+from walk_building.errors import WalkError
+
+
+class NoFreeVoxelError(WalkError):
+    """Every voxel of the grid meets geometry.
+
+    Attributes:
+        voxel_size_m: The voxels' edge.
+    """
+
+    def __init__(self, voxel_size_m: float) -> None:
+        self.voxel_size_m = voxel_size_m
+        super().__init__(
+            f"no voxel of {voxel_size_m:g} m is free of geometry; use a smaller voxel_size_m or check the units"
+        )
+
+
+class NoPlaceError(WalkError):
+    """There is no place a walker could reach, so no keypoint."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "no place in the building can be reached by the walker, so there is no keypoint; "
+            "try a smaller walker, another start or outdoors"
+        )
+
+
+class TooManyKeypointsError(WalkError):
+    """More keypoints were asked for than there is room for.
+
+    Attributes:
+        count: How many were asked for.
+        fitting: How many fit.
+    """
+
+    def __init__(self, count: int, fitting: int) -> None:
+        self.count = count
+        self.fitting = fitting
+        super().__init__(
+            f"{count} keypoints were asked for, but only {fitting} fit a body's width apart; ask for at most {fitting}"
+        )

@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Visibility the source's way, a ray for every pair: the oracle of the other modes and the bench's reference."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+
+import numba
+import numpy as np
+from numpy.typing import NDArray
+from walk_building.bvh import first_hit
+
+from walk_importance.visibility.estimate import Scene, VisibilityEstimate, estimate
+
+
+def ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+    """Yields the visibility map once, by rays between voxel centres against the triangles.
+
+    Free voxels that a wall thinner than a voxel parts see each other here no more than in reality; apart from
+    that the word-parallel modes ask the same of the voxels instead. Takes a microsecond a pair, so hours for a
+    house at 0.25 m.
+    """
+    assert scene.geometry is not None
+    sources = np.argwhere(scene.sources)
+    targets = np.argwhere(scene.targets)
+    start, end = scene.grid.centres(sources), scene.grid.centres(targets)
+    seen = in_chunks(_triangle_rays, len(sources), scene.geometry.bvh, start, end)
+    yield _as_estimate(scene, sources, seen)
+
+
+def voxel_ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+    """Yields the visibility map once, by a scalar walk from voxel to voxel for every pair.
+
+    The same definition of seeing as in the exact mode, by another algorithm: each axis's next boundary is compared
+    in whole numbers, and the walk ends at the first obstacle.
+    """
+    sources = np.argwhere(scene.sources)
+    seen = count_voxel_rays(scene, sources)
+    yield _as_estimate(scene, sources, seen)
+
+
+def count_voxel_rays(scene: Scene, sources: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Returns the number of other target voxels that each of `sources` (N, 3) sees, by scalar voxel walks."""
+    return in_chunks(_voxel_rays, len(sources), scene.free, sources, np.argwhere(scene.targets))
+
+
+def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> NDArray[np.int64]:
+    """Returns what `kernel(begin, end, *args, seen)` writes for 0..n, on all cores."""
+    seen = np.zeros(n, np.int64)
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    edges = np.linspace(0, n, 16 * cores + 1).astype(int)
+    with ThreadPoolExecutor(cores) as pool:
+        list(pool.map(lambda i: kernel(edges[i], edges[i + 1], *args, seen), range(16 * cores)))
+    return seen
+
+
+def _as_estimate(scene: Scene, sources: NDArray[np.int64], seen: NDArray[np.int64]) -> VisibilityEstimate:
+    counts = np.zeros(scene.grid.shape)
+    counts[tuple(sources.T)] = seen
+    n = float(scene.targets.sum())
+    return estimate(scene, counts, 0.0, 1.0, n * (n - 1) / 2)
+
+
+@numba.njit(cache=True, nogil=True)
+def _triangle_rays(begin, end, bvh, start, goal, seen):
+    for i in range(begin, end):
+        x, y, z = start[i]
+        n = -1  # itself
+        for j in range(len(goal)):
+            dx, dy, dz = goal[j, 0] - x, goal[j, 1] - y, goal[j, 2] - z
+            if first_hit(bvh, x, y, z, dx, dy, dz, 1.0)[1] < 0:
+                n += 1
+        seen[i] = n
+
+
+@numba.njit(cache=True, nogil=True)
+def _voxel_rays(begin, end, free, sources, targets, seen):
+    for i in range(begin, end):
+        n = -1  # itself
+        for j in range(len(targets)):
+            n += voxel_ray(free, sources[i, 0], sources[i, 1], sources[i, 2], targets[j])
+        seen[i] = n
+
+
+@numba.njit(cache=True, nogil=True)
+def voxel_ray(free, x, y, z, goal):
+    """Whether all voxels that the segment from (x, y, z) to `goal` touches are free; 0 or 1."""
+    ax, ay, az = abs(goal[0] - x), abs(goal[1] - y), abs(goal[2] - z)
+    sx = 1 if goal[0] > x else -1
+    sy = 1 if goal[1] > y else -1
+    sz = 1 if goal[2] > z else -1
+    # Time runs in units of 1 / (2 ax ay az), zeros taken as one: the next crossing and the time between two.
+    px, py, pz = max(ax, 1), max(ay, 1), max(az, 1)
+    never = np.int64(1) << 60
+    tx, wx = (py * pz, 2 * py * pz) if ax else (never, 0)
+    ty, wy = (px * pz, 2 * px * pz) if ay else (never, 0)
+    tz, wz = (px * py, 2 * px * py) if az else (never, 0)
+    stop = 2 * px * py * pz
+    while True:
+        t = min(tx, ty, tz)
+        if t > stop:
+            return 1
+        mx, my, mz = tx == t, ty == t, tz == t
+        if mx + my + mz > 1:
+            if mx and my and not (free[x + sx, y, z] and free[x, y + sy, z]):
+                return 0
+            if mx and mz and not (free[x + sx, y, z] and free[x, y, z + sz]):
+                return 0
+            if my and mz and not (free[x, y + sy, z] and free[x, y, z + sz]):
+                return 0
+            if mx and my and mz:
+                if not (free[x + sx, y + sy, z] and free[x + sx, y, z + sz] and free[x, y + sy, z + sz]):
+                    return 0
+        if mx:
+            x += sx
+            tx += wx
+        if my:
+            y += sy
+            ty += wy
+        if mz:
+            z += sz
+            tz += wz
+        if not free[x, y, z]:
+            return 0
