@@ -30,7 +30,8 @@ Item = tuple[str, Entity]  # name of a colour, solid
 
 COLOURS: dict[str, tuple[float, float, float, float]] = {  # red, green, blue, transparency
     "plaster": (0.94, 0.92, 0.88, 0.0),
-    "brick": (0.71, 0.47, 0.37, 0.0),
+    "brick": (0.80, 0.76, 0.70, 0.0),
+    "larch": (0.68, 0.54, 0.40, 0.0),
     "concrete": (0.75, 0.74, 0.72, 0.0),
     "paving": (0.66, 0.64, 0.60, 0.0),
     "terrazzo": (0.84, 0.82, 0.78, 0.0),

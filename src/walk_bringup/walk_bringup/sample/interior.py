@@ -85,8 +85,8 @@ UPPER: tuple[Spot, ...] = (
     ("Armchair", 23.0, 1.0, 45.0),
     ("Armchair", 21.4, 0.95, -20.0),
     # Meeting room
-    ("Long table", 21.1, 6.7, 0.0),
-    ("Low shelf", 21.0, 8.2, 180.0),
+    ("Long table", 22.0, 6.7, 0.0),
+    ("Low shelf", 20.2, 8.2, 180.0),
     # Studio
     ("Long table", 2.6, 7.2, 90.0),
     ("Low shelf", 1.4, 5.2, 0.0),
@@ -111,8 +111,7 @@ OUTSIDE: tuple[Spot, ...] = (
     ("Sculpture", 7.6, -5.2, 35.0),
 )
 
-# Tables with the seats around them: table's spot and height of the floor, piece, seats as (distance ahead of the
-# table's middle, sideways) or, for a round table, how many.
+# Where round tables stand.
 CAFE_TABLES = ((1.5, 1.5), (1.5, 3.8), (6.5, 1.2))
 TERRACE_TABLES = ((1.5, -2.0), (6.6, -2.0))
 

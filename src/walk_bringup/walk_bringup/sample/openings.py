@@ -5,30 +5,47 @@
 from __future__ import annotations
 
 from walk_bringup.sample.ifc_file import IfcFile, Item
-from walk_bringup.sample.plan import Opening, Wall
+from walk_bringup.sample.plan import OUTER_WALL, Opening, Wall
 from walk_bringup.sample.shapes import Entity, Point3, Shapes
 
 FRAME = 0.06
 LEAF = 0.05
 PANE = 0.02
+LINING = 0.1  # of the outer walls, inside of the facade
 
 
 def add_wall(file: IfcFile, wall: Wall) -> Entity:
     """Adds a wall, cuts its openings and fills them; returns the wall."""
     storey = file.storeys[wall.storey]
-    solid = file.shapes.box((*wall.low, wall.foot), (*wall.high, wall.top))
-    entity = file.element("IfcWall", wall.name, storey, [("brick" if wall.outer else "plaster", solid)])
+    entity = file.element("IfcWall", wall.name, storey, _layers(file.shapes, wall))
     entity.PredefinedType = "SOLIDWALL"
     file.properties(entity, "Pset_WallCommon", {"IsExternal": wall.outer, "LoadBearing": wall.outer})
+    where = wall.name[0].lower() + wall.name[1:]
     for number, opening in enumerate(wall.openings, start=1):
-        _add_opening(
-            file,
-            wall,
-            entity,
-            opening,
-            f"{opening.kind.capitalize()} {number} in {wall.name[0].lower()}{wall.name[1:]}",
-        )
+        _add_opening(file, wall, entity, opening, f"{opening.kind.capitalize()} {number} in {where}")
     return entity
+
+
+def _layers(shapes: Shapes, wall: Wall) -> list[Item]:
+    """One solid of plaster, or for an outer wall the lining inside and the facade outside."""
+    frame = Frame(shapes, wall)
+    half, heights = frame.thickness / 2, (wall.foot, wall.top)
+    if not wall.outer:
+        return [("plaster", frame.box(frame.ends, (-half, half), heights))]
+    facade = "brick" if wall.storey == 0 else "larch"
+    # At a corner the facades of both walls meet, so that no lining shows outside.
+    ends = facade_ends = lining_ends = frame.ends
+    if ends[0] == 0.0:
+        lining_ends = (ends[0] + frame.thickness - LINING, ends[1] - frame.thickness + LINING)
+    else:
+        facade_ends = (ends[0] - LINING, ends[1] + LINING)
+    faces_low = wall.low[0] == 0.0 and wall.low[1] in (0.0, OUTER_WALL)  # to the south or the west
+    seam = half - LINING
+    outside, inside = ((-half, seam), (seam, half)) if faces_low else ((-seam, half), (-half, -seam))
+    return [
+        (facade, frame.box(facade_ends, outside, heights)),
+        ("plaster", frame.box(lining_ends, inside, heights)),
+    ]
 
 
 class Frame:
@@ -40,6 +57,7 @@ class Frame:
         across = 1 if self._along_x else 0
         self._middle = (wall.low[across] + wall.high[across]) / 2
         self.thickness = wall.high[across] - wall.low[across]
+        self.ends = (wall.low[1 - across], wall.high[1 - across])
 
     def box(self, s: tuple[float, float], t: tuple[float, float], z: tuple[float, float]) -> Entity:
         """Returns the box between two coordinates along the wall, across it and up."""

@@ -85,10 +85,22 @@ def _high(number: str, name: str, outline: tuple[Point2, ...]) -> Room:
 
 
 def _column_hall() -> tuple[Block, ...]:
-    void = rectangle(plan.VOID_WEST, plan.VOID_SOUTH, plan.VOID_EAST, plan.HALL_NORTH)
+    """The air under the gallery and, beside it, that of the double height: no vertical line meets both."""
+    south, north = 5.2, plan.HALL_NORTH
+    under_gallery = (
+        (6.2, south),
+        (18.0, south),
+        (18.0, north),
+        (plan.VOID_EAST, north),
+        (plan.VOID_EAST, plan.VOID_SOUTH),
+        (plan.VOID_WEST, plan.VOID_SOUTH),
+        (plan.VOID_WEST, north),
+        (6.2, north),
+    )
+    void = rectangle(plan.VOID_WEST, plan.VOID_SOUTH, plan.VOID_EAST, north)
     return (
-        Block(outline=rectangle(6.2, 5.2, 18.0, plan.HALL_NORTH), foot=0.0, top=plan.CEILING),
-        Block(outline=void, foot=plan.CEILING, top=plan.ROOF),
+        Block(outline=under_gallery, foot=0.0, top=plan.CEILING),
+        Block(outline=void, foot=0.0, top=plan.ROOF),
     )
 
 

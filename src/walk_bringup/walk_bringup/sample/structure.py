@@ -11,6 +11,7 @@ from walk_bringup.sample.shapes import Entity
 
 COLUMN_RADIUS = 0.17
 COPING = 0.05
+FLOORING = 0.02  # the boards on the upper slab
 SKYLIGHTS = (9.35, 12.1, 14.85)  # x of their middles, between the columns
 SKYLIGHT_WIDTH, SKYLIGHT_SOUTH, SKYLIGHT_NORTH = 1.6, 7.6, 11.2
 
@@ -28,8 +29,12 @@ def _add_slabs(file: IfcFile) -> None:
     base = file.shapes.box((0.0, 0.0, -0.3), (plan.LENGTH, plan.DEPTH, 0.0))
     file.element("IfcSlab", "Ground slab", ground, [("terrazzo", base)], predefined="BASESLAB")
     low = (plan.OUTER_WALL, plan.OUTER_WALL, plan.CEILING)
-    floor = file.shapes.box(low, (plan.EAST, plan.NORTH, plan.RISE))
-    slab = file.element("IfcSlab", "Upper floor slab", upper, [("terrazzo", floor)], predefined="FLOOR")
+    seam = plan.RISE - FLOORING
+    floor: list[Item] = [
+        ("concrete", file.shapes.box(low, (plan.EAST, plan.NORTH, seam))),
+        ("oak", file.shapes.box((*low[:2], seam), (plan.EAST, plan.NORTH, plan.RISE))),
+    ]
+    slab = file.element("IfcSlab", "Upper floor slab", upper, floor, predefined="FLOOR")
     for name, outline in (("hall and ramp", plan.HALL_VOID), ("stair", plan.STAIR_VOID)):
         _cut(file, slab, upper, f"Void of {name}", [file.shapes.prism(outline, plan.CEILING - 0.1, plan.RISE + 0.1)])
     paving = file.shapes.box((-5.0, -9.0, plan.PLAZA - 0.2), (plan.LENGTH + 5.0, plan.DEPTH + 4.0, plan.PLAZA))

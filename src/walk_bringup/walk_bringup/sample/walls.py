@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from walk_bringup.sample import plan
 from walk_bringup.sample.plan import Opening, Wall, door, passage, window
+from walk_bringup.sample.shapes import Point2
 
 W = plan.OUTER_WALL
 E, N = plan.EAST, plan.NORTH
@@ -16,12 +17,12 @@ def walls() -> tuple[Wall, ...]:
     return (*_outer_ground(), *_inner_ground(), *_outer_upper(), *_inner_upper())
 
 
-def _outer(name: str, storey: int, low: plan.Point2, high: plan.Point2, *openings: Opening) -> Wall:
+def _outer(name: str, storey: int, low: Point2, high: Point2, *openings: Opening) -> Wall:
     foot, top = (0.0, plan.RISE) if storey == 0 else (plan.RISE, plan.PARAPET)
     return Wall(name=name, storey=storey, low=low, high=high, foot=foot, top=top, outer=True, openings=tuple(openings))
 
 
-def _inner(name: str, storey: int, low: plan.Point2, high: plan.Point2, *openings: Opening) -> Wall:
+def _inner(name: str, storey: int, low: Point2, high: Point2, *openings: Opening) -> Wall:
     foot, top = (0.0, plan.CEILING) if storey == 0 else (plan.RISE, plan.ROOF)
     return Wall(name=name, storey=storey, low=low, high=high, foot=foot, top=top, openings=tuple(openings))
 
@@ -70,6 +71,8 @@ def _inner_ground() -> tuple[Wall, ...]:
         _inner("Wall office–stair", 0, (18.2, 8.2), (E, 8.4)),
         _inner("Wall stair–ramp", 0, (18.2, plan.STAIR_NORTH), (E, plan.HALL_NORTH)),
         _inner("Wall store–ramp foyer", 0, (plan.RAMP_WEST, lane_wall), (4.15, N), door(14.7, 0.95)),
+        # Closes off where the stair's upper flight leaves too little head-room below it.
+        Wall(name="Wall under the stair", storey=0, low=(20.9, 9.95), high=(21.0, 11.75), foot=0.0, top=2.09),
         Wall(name="Wall behind the store", storey=0, low=(11.0, lane_wall), high=(11.15, N), foot=0.0, top=2.3),
     )
 
