@@ -30,12 +30,12 @@ def axis_distance_sq(bvh, x, y, low_z, high_z, limit):
         if dx * dx + dy * dy + dz * dz >= best:
             continue
         first = bvh.child[node]
-        if bvh.count[node] == 0:
+        if bvh.filled[node] == 0:
             stack[top] = first
             stack[top + 1] = first + 1
             top += 2
             continue
-        for i in range(first, first + bvh.count[node]):
+        for i in range(first, first + bvh.filled[node]):
             best = min(best, _axis_triangle_sq(bvh.triangles[i], x, y, low_z, high_z))
             if best < enough:
                 return best

@@ -21,13 +21,13 @@ STACK_DEPTH = 64  # the middle split halves a box's side each time, so 64 levels
 class Bvh(NamedTuple):
     """Nodes in depth-first order; the children of node i are `child[i]` and `child[i] + 1`.
 
-    A leaf has `count[i] > 0` triangles, `triangles[child[i] : child[i] + count[i]]`.
+    A leaf has `filled[i] > 0` triangles, `triangles[child[i] : child[i] + filled[i]]`.
     """
 
     low: NDArray[np.float64]  # (M, 3) box corners
     high: NDArray[np.float64]  # (M, 3)
     child: NDArray[np.int32]  # (M,)
-    count: NDArray[np.int32]  # (M,)
+    filled: NDArray[np.int32]  # (M,)
     triangles: NDArray[np.float64]  # (F, 3, 3) corners, in leaf order
     face: NDArray[np.int32]  # (F,) index of each in the caller's faces
 
@@ -78,7 +78,7 @@ def _build(triangles):
             continue
         axis = np.argmax(centre_high - centre_low)
         middle = _partition(order, centroid[:, axis], begin, end, 0.5 * (centre_low[axis] + centre_high[axis]))
-        if middle == begin or middle == end:
+        if middle in (begin, end):
             middle = (begin + end) // 2
             part = order[begin:end].copy()
             order[begin:end] = part[np.argsort(centroid[part, axis])]
@@ -166,8 +166,8 @@ def closest_point(bvh, px, py, pz, max_distance):
             continue
         node = stack[top]
         first = bvh.child[node]
-        if bvh.count[node] > 0:
-            for i in range(first, first + bvh.count[node]):
+        if bvh.filled[node] > 0:
+            for i in range(first, first + bvh.filled[node]):
                 cx, cy, cz = closest_on_triangle(bvh.triangles[i], px, py, pz)
                 sq = (cx - px) ** 2 + (cy - py) ** 2 + (cz - pz) ** 2
                 if sq < best or (sq == best and best_face < 0):
@@ -246,8 +246,8 @@ def first_hit(bvh, ox, oy, oz, dx, dy, dz, max_t):
             continue
         node = stack[top]
         first = bvh.child[node]
-        if bvh.count[node] > 0:
-            for i in range(first, first + bvh.count[node]):
+        if bvh.filled[node] > 0:
+            for i in range(first, first + bvh.filled[node]):
                 t = _ray_triangle(bvh.triangles[i], ox, oy, oz, dx, dy, dz)
                 if t <= best and t < np.inf:
                     best, best_face = t, bvh.face[i]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -118,7 +119,7 @@ def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> None:
     # More chunks than cores, because queries near the geometry take longer than others.
     edges = np.linspace(0, n, 8 * workers + 1).astype(int)
     with ThreadPoolExecutor(workers) as pool:
-        for done in [pool.submit(kernel, a, b, *args) for a, b in zip(edges[:-1], edges[1:], strict=True)]:
+        for done in [pool.submit(kernel, a, b, *args) for a, b in itertools.pairwise(edges)]:
             done.result()
 
 

@@ -31,8 +31,7 @@ from walk_building.regions import components, start_component
 from walk_building.rooms import find_rooms
 from walk_building.standing import neighbour_graph, standing_places
 from walk_building.storeys import find_storeys, storey_of
-from walk_building.surface import WalkableSurface
-from walk_building.surface_kernels import Grid
+from walk_building.surface import WalkableSurface, grid_of
 from walk_building.walker import Walker
 
 CELL_M = 0.1  # half of a narrow doorway's free play for the body; finer costs memory by its square
@@ -71,7 +70,7 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
     places, column_start = standing_places(geometry, walker, columns, hits)
     if len(places) == 0:
         raise BuildingError(model.source, _no_floor(model, walker))
-    grid = Grid(*columns.origin.tolist(), columns.cell_m, *columns.shape, column_start, places)
+    grid = grid_of(columns, column_start, places)
     indptr, neighbours = neighbour_graph(grid, walker.step_m)
 
     column = np.repeat(np.arange(columns.count), np.diff(column_start))

@@ -123,9 +123,7 @@ def _found_rooms(label: NDArray[np.int32], floor: _Floor) -> list[Room]:
     return named
 
 
-def _room(
-    name: str, storey: int, members: NDArray[np.int64], middle: NDArray[np.float64], floor: _Floor
-) -> Room:
+def _room(name: str, storey: int, members: NDArray[np.int64], middle: NDArray[np.float64], floor: _Floor) -> Room:
     reached = members[floor.reachable[members]]
     best = reached if len(reached) else members
     centre = floor.places[best[np.argmax(floor.clearance_m[best])]] if len(best) else middle

@@ -62,9 +62,7 @@ class WalkableSurface:
     @cached_property
     def grid(self) -> Grid:
         """The arrays that compiled kernels need to look places up by column."""
-        nx, ny = self.columns.shape
-        ox, oy = self.columns.origin
-        return Grid(float(ox), float(oy), self.cell_m, nx, ny, self.column_start, self.places)
+        return grid_of(self.columns, self.column_start, self.places)
 
     def nearest(self, points: ArrayLike, mask: NDArray[np.bool_] | None = None) -> NDArray[np.int64]:
         """Returns the place nearest to each floor point, -1 where there is no place at all.
@@ -117,3 +115,9 @@ class WalkableSurface:
     @cached_property
     def _tree(self) -> cKDTree:
         return cKDTree(self.places)
+
+
+def grid_of(columns: Columns, column_start: NDArray[np.int64], places: NDArray[np.float64]) -> Grid:
+    """Returns places and columns in the form that compiled kernels take."""
+    x, y = columns.origin
+    return Grid(float(x), float(y), columns.cell_m, *columns.shape, column_start, places)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import stat
 from pathlib import Path
 
 from walk_building.errors import BuildingError
@@ -44,33 +45,39 @@ def load_model(path: Path | str, options: LoadOptions | None = None, progress: P
     path = Path(path)
     options = LoadOptions() if options is None else options
     part_filter = PartFilter(options.ignore)
-    loader = _loader_for(path)
     _check_readable(path)
+    loader = _loader_for(path)
     progress("load", 0.0)
-    raw = loader(path, options, part_filter, progress)
-    model = assemble(raw, path, options, part_filter, content_hash(path, raw.references, options))
+    try:
+        raw = loader(path, options, part_filter, progress)
+        name = content_hash(path, raw.references, options)
+    except OSError as error:
+        raise BuildingError(path, f"cannot be read ({error.strerror or error})") from error
+    model = assemble(raw, path, options, part_filter, name)
     progress("load", 1.0)
     return model
 
 
-def _loader_for(path: Path) -> Loader:
-    if not path.exists():
-        raise BuildingError(path, "there is no such file")
-    if path.is_dir():
-        raise BuildingError(path, "is a folder; give the building file inside it")
-    try:
-        return LOADERS[path.suffix.lower()]
-    except KeyError:
-        expected = ", ".join(LOADERS)
-        given = f"the suffix {path.suffix} is not known" if path.suffix else "the file name has no suffix"
-        raise BuildingError(path, f"{given}; expected one of {expected}") from None
-
-
 def _check_readable(path: Path) -> None:
     try:
+        mode = path.stat().st_mode
+        if stat.S_ISDIR(mode):
+            raise BuildingError(path, "is a folder; give the building file inside it")
+        if not stat.S_ISREG(mode):
+            raise BuildingError(path, "is no ordinary file")
         with path.open("rb") as file:
             empty = not file.read(1)
-    except OSError as error:
-        raise BuildingError(path, f"cannot be read ({error.strerror or error})") from error
+    except (FileNotFoundError, NotADirectoryError) as error:
+        raise BuildingError(path, "there is no such file") from error
+    except (OSError, ValueError) as error:
+        raise BuildingError(path, f"cannot be read ({getattr(error, 'strerror', None) or error})") from error
     if empty:
         raise BuildingError(path, "the file is empty")
+
+
+def _loader_for(path: Path) -> Loader:
+    loader = LOADERS.get(path.suffix.lower())
+    if loader is None:
+        given = f"the suffix {path.suffix} is not known" if path.suffix else "the file name has no suffix"
+        raise BuildingError(path, f"{given}; expected one of {', '.join(LOADERS)}")
+    return loader

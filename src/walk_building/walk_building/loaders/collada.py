@@ -6,11 +6,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
 from walk_building.errors import BuildingError
+
+# As C libraries print them: nan, inf, 1.#IND, 1.#QNAN.
+_NOT_FINITE = re.compile(r"nan|inf|#", re.IGNORECASE)
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,6 +40,7 @@ def read_collada(path: Path) -> ColladaFacts:
         raise BuildingError(path, f"is not a COLLADA file (its root is <{_tag(root)}>)")
     if root.find("{*}scene") is None:
         raise BuildingError(path, "has no <scene>, so nothing in it is placed; export it again")
+    _check_positions(root, path)
     up = (root.findtext("{*}asset/{*}up_axis") or "Y_UP").strip().lower()[:1]
     return ColladaFacts(units_m=_unit_m(root, path), up=up if up in ("x", "y", "z") else "y", names=_names(root))
 
@@ -50,6 +55,14 @@ def _unit_m(root: ElementTree.Element, path: Path) -> float:
     if not (math.isfinite(units_m) and units_m > 0.0):
         raise BuildingError(path, f"its unit is {text!r} metres, which is no length; correct its <unit meter=…>")
     return units_m
+
+
+def _check_positions(root: ElementTree.Element, path: Path) -> None:
+    """Refuses positions that are no finite numbers: the engine would put those vertices at the origin."""
+    keys = {use.get("source") for use in root.iterfind(".//{*}vertices/{*}input[@semantic='POSITION']")}
+    for source in root.iterfind(".//{*}mesh/{*}source"):
+        if f"#{source.get('id')}" in keys and _NOT_FINITE.search(source.findtext("{*}float_array") or ""):
+            raise BuildingError(path, f"positions in {source.get('id')!r} are no finite numbers; export it again")
 
 
 def _names(root: ElementTree.Element) -> dict[str, str]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -39,10 +40,20 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
     Raises:
         BuildingError: The file is not IFC, is cut short, or is of a schema the engine does not know.
     """
-    file = _open(path)
-    unit_m = _length_unit(file, path)
+    import ifcopenshell  # half a second of imports that a mesh file does not need
+
+    known = {str(name).upper() for name in ifcopenshell.ifcopenshell_wrapper.schema_names()}
+    text = read_step(path, {name for name in known if name.startswith("IFC")})
+    try:
+        return _content(ifcopenshell.file.from_string(text), options, part_filter, progress)
+    except Exception as error:  # the engine's errors share no base, and in a damaged file any attribute may be any type
+        raise BuildingError(path, f"is damaged and cannot be read as IFC ({error})") from error
+
+
+def _content(file: Any, options: LoadOptions, part_filter: PartFilter, progress: Progress) -> RawModel:
+    unit_m = _length_unit(file)
     products = [product for product in _with_shape(file, options) if not _ignored(product, part_filter)]
-    meshes = _tessellate(file, products, unit_m, progress)
+    meshes = _tessellate(file, products, unit_m or 1.0, progress)
     spaces, parts = [], []
     leaves: dict[int, list[RawMesh]] = {}
     for product in products:
@@ -67,26 +78,17 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
     )
 
 
-def _open(path: Path) -> Any:
-    import ifcopenshell  # half a second of imports that a mesh file does not need
-
-    known = {str(name).upper() for name in ifcopenshell.ifcopenshell_wrapper.schema_names()}
-    text = read_step(path, {name for name in known if name.startswith("IFC")})
-    try:
-        file = ifcopenshell.file.from_string(text)
-        file.by_type("IfcProduct")
-    except Exception as error:  # the engine's own exceptions share no base
-        raise BuildingError(path, f"is damaged and cannot be read as IFC ({error})") from error
-    return file
-
-
-def _length_unit(file: Any, path: Path) -> float:
+def _length_unit(file: Any) -> float | None:
+    """Returns the file's unit [m], or None where it declares none (the engine then takes metres)."""
     import ifcopenshell.util.unit
 
-    try:
-        return float(ifcopenshell.util.unit.calculate_unit_scale(file))
-    except Exception as error:
-        raise BuildingError(path, f"its length unit cannot be read ({error}); give it with --units") from error
+    units = [unit for assignment in file.by_type("IfcUnitAssignment") for unit in assignment.Units]
+    if not any(getattr(unit, "UnitType", None) == "LENGTHUNIT" for unit in units):
+        return None
+    scale = float(ifcopenshell.util.unit.calculate_unit_scale(file))
+    if not (math.isfinite(scale) and scale > 0.0):
+        raise ValueError(f"its length unit is {scale} m")
+    return scale
 
 
 def _with_shape(file: Any, options: LoadOptions) -> Iterator[Any]:
@@ -107,7 +109,7 @@ def _ignored(product: Any, part_filter: PartFilter) -> bool:
 
 
 def _name(product: Any) -> str:
-    return product.Name or f"{product.is_a()} #{product.id()}"
+    return str(product.Name or f"{product.is_a()} #{product.id()}")
 
 
 def _tessellate(file: Any, products: list[Any], unit_m: float, progress: Progress) -> dict[int, RawMesh]:
@@ -121,7 +123,7 @@ def _tessellate(file: Any, products: list[Any], unit_m: float, progress: Progres
         product = file.by_id(shape.id)
         meshes[product.id()] = RawMesh(
             name=_name(product),
-            long_name=getattr(product, "LongName", None) or "",
+            long_name=str(getattr(product, "LongName", None) or ""),
             kind=product.is_a(),
             storey=_storey_name(product),
             vertices=(local @ placement[:3, :3].T + placement[:3, 3]) / unit_m,
@@ -175,7 +177,7 @@ def _ancestors(product: Any) -> Iterator[Any]:
 def _storey_name(product: Any) -> str:
     for ancestor in _ancestors(product):
         if ancestor.is_a("IfcBuildingStorey"):
-            return ancestor.Name or ""
+            return str(ancestor.Name or "")
     return ""
 
 
@@ -213,7 +215,7 @@ def _storeys(file: Any) -> tuple[tuple[str, float], ...]:
     declared = [float(storey.Elevation or 0.0) for storey in storeys]
     if len(set(placed)) <= 1 < len(set(declared)):
         placed = [z + elevation for z, elevation in zip(placed, declared, strict=True)]
-    return tuple((storey.Name or "", z) for storey, z in zip(storeys, placed, strict=True))
+    return tuple((str(storey.Name or ""), z) for storey, z in zip(storeys, placed, strict=True))
 
 
 def _lost(products: list[Any], meshes: dict[int, RawMesh]) -> list[str]:

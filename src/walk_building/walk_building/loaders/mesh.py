@@ -18,6 +18,7 @@ import numpy as np
 from walk_building.errors import BuildingError
 from walk_building.loaders.collada import read_collada
 from walk_building.loaders.gltf import check_gltf
+from walk_building.loaders.obj import readable_obj
 from walk_building.loaders.raw import PartFilter, RawMesh, RawModel
 from walk_building.model import LoadOptions
 from walk_building.progress import Progress
@@ -67,12 +68,13 @@ def _read(path: Path, suffix: str, neighbours: _Neighbours) -> Any:
     import trimesh  # a second of imports that an IFC file does not need
 
     kind = suffix[1:]
-    stream = _stream(path, suffix)
     try:
         with _quiet(trimesh.util.log) as messages, np.errstate(all="ignore"):
             scene = trimesh.load_scene(
-                stream, file_type=kind, resolver=neighbours, process=False, **_SETTINGS.get(suffix, {})
+                _stream(path, suffix), file_type=kind, resolver=neighbours, process=False, **_SETTINGS.get(suffix, {})
             )
+    except BuildingError:
+        raise
     except MissingNeighbourError as error:
         raise BuildingError(path, f"refers to {error.name!r}, which is not there; put it beside the file") from error
     except Exception as error:  # the engine raises whatever its parser trips over
@@ -83,23 +85,25 @@ def _read(path: Path, suffix: str, neighbours: _Neighbours) -> Any:
 
 
 def _stream(path: Path, suffix: str) -> io.BytesIO:
-    """Returns the file's bytes, texts as UTF-8 (the engine reads no other encoding)."""
+    """Returns what the engine is to read: the file's bytes, or its text in the form that the engine understands."""
     data = path.read_bytes()
-    if suffix == ".stl":
-        count = int.from_bytes(data[_STL_HEADER_BYTES - 4 : _STL_HEADER_BYTES], "little")
-        binary = len(data) == _STL_HEADER_BYTES + _STL_TRIANGLE_BYTES * count
-        if not binary and not data.lstrip()[:5].lower() == b"solid":
-            raise BuildingError(path, "is not an STL file, or is cut short; copy or export it again")
-        return io.BytesIO(data if binary else _as_utf8(data))
-    return io.BytesIO(_as_utf8(data) if suffix == ".obj" else data)
+    if suffix == ".obj":
+        return io.BytesIO(readable_obj(_decoded(data)).encode())
+    if suffix != ".stl":
+        return io.BytesIO(data)
+    count = int.from_bytes(data[_STL_HEADER_BYTES - 4 : _STL_HEADER_BYTES], "little")
+    if len(data) == _STL_HEADER_BYTES + _STL_TRIANGLE_BYTES * count:
+        return io.BytesIO(data)
+    if data.lstrip()[:5].lower() != b"solid":
+        raise BuildingError(path, "is not an STL file, or is cut short; copy or export it again")
+    return io.BytesIO(_decoded(data).encode())
 
 
-def _as_utf8(data: bytes) -> bytes:
+def _decoded(data: bytes) -> str:
     try:
-        data.decode("utf-8")
+        return data.decode("utf-8")
     except UnicodeDecodeError:
-        return data.decode("latin-1").encode("utf-8")
-    return data
+        return data.decode("latin-1")
 
 
 def _parts(scene: Any, stem: str, names: Mapping[str, str], part_filter: PartFilter) -> tuple[list[RawMesh], int]:

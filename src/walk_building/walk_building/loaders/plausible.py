@@ -97,7 +97,7 @@ def suspect_axes(vertices: NDArray[np.float64], faces: NDArray[np.int32], up: st
     facing = np.abs(normals) > _FACING * area[:, None]
     total = (facing * area[:, None]).sum(axis=0)
     y, z = 1, 2
-    denser = total[y] / extent[y] > 2.0 * total[z] / extent[z]
+    denser = total[y] / extent[y] > 1.5 * total[z] / extent[z]
     on_side = denser and total[y] > 1.2 * total[z]
     flat = (
         denser
