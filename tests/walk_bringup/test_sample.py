@@ -100,6 +100,7 @@ def test_building_holds_what_the_sample_has_to_show(stored: Any) -> None:
     assert len(stored.by_type("IfcWindow")) > sum(opening.kind == "window" for opening in openings)  # and skylights
     assert len([c for c in stored.by_type("IfcColumn") if c.Name.startswith("Column")]) == len(plan.COLUMNS) >= 8
     assert len(stored.by_type("IfcFurniture")) > 50
+    assert all(ifcopenshell.util.element.get_types(described) for described in stored.by_type("IfcTypeProduct"))
 
 
 def test_file_stays_small(meshes: dict[str, tuple[Any, trimesh.Trimesh]]) -> None:

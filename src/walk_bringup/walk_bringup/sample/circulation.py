@@ -42,7 +42,7 @@ def railing(shapes: Shapes, line: Sequence[Point3]) -> list[Item]:
 
         origin = (start[0], start[1])
         items.append(("oak", shapes.upright(band(0.0, run, RAIL_HEIGHT - RAIL, RAIL_HEIGHT), origin, along, RAIL)))
-        items.append(("glass", shapes.upright(band(0.0, run, 0.06, RAIL_HEIGHT - RAIL), origin, along, 0.015)))
+        items.append(("glass", shapes.upright(band(RAIL, run - RAIL, 0.06, RAIL_HEIGHT - RAIL), origin, along, 0.015)))
         posts = max(1, round(run / POST_SPACING))
         for number in range(posts + 1):
             s = min(max(run * number / posts, RAIL / 2), run - RAIL / 2)

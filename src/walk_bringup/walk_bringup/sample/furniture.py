@@ -93,7 +93,7 @@ def _display_case(shapes: Shapes) -> list[Item]:
         ("walnut", shapes.box((-0.6, -0.35, 0.0), (0.6, 0.35, 0.8))),
         ("bronze", shapes.ngon((-0.25, 0.0, 0.8), 0.1, 0.22)),
         ("ceramic", shapes.ngon((0.2, 0.0, 0.8), 0.14, 0.12, sides=10)),
-        ("glass", shapes.box((-0.58, -0.33, 0.8), (0.58, 0.33, 1.25))),
+        ("glass", shapes.box((-0.58, -0.33, 0.805), (0.58, 0.33, 1.25))),
     ]
 
 
@@ -121,8 +121,8 @@ def _reception(shapes: Shapes) -> list[Item]:
     return [
         ("walnut", shapes.box((-1.2, 0.25, 0.0), (1.2, 0.35, 1.05))),
         ("oak", shapes.box((-1.25, 0.1, 1.05), (1.25, 0.4, 1.09))),
-        ("walnut", shapes.box((-1.2, -0.35, 0.0), (-1.1, 0.25, 0.74))),
-        ("walnut", shapes.box((1.1, -0.35, 0.0), (1.2, 0.25, 0.74))),
+        ("walnut", shapes.box((-1.2, -0.35, 0.0), (-1.1, 0.25, 0.7))),
+        ("walnut", shapes.box((1.1, -0.35, 0.0), (1.2, 0.25, 0.7))),
         ("oak", shapes.box((-1.2, -0.4, 0.7), (1.2, 0.25, 0.74))),
     ]
 
@@ -132,7 +132,7 @@ def _counter(shapes: Shapes) -> list[Item]:
         ("walnut", shapes.box((-1.3, -0.3, 0.0), (1.3, 0.3, 0.98))),
         ("concrete", shapes.box((-1.35, -0.33, 0.98), (1.35, 0.35, 1.03))),
         ("metal", shapes.box((0.5, -0.2, 1.03), (1.0, 0.15, 1.4))),
-        ("glass", shapes.box((-1.0, -0.2, 1.03), (0.2, 0.25, 1.33))),
+        ("glass", shapes.box((-1.0, -0.2, 1.035), (0.2, 0.25, 1.33))),
     ]
 
 

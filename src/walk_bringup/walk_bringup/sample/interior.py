@@ -92,6 +92,8 @@ UPPER: tuple[Spot, ...] = (
     ("Low shelf", 1.4, 5.2, 0.0),
     ("Low shelf", 4.6, 5.2, 0.0),
     ("Sculpture", 4.7, 6.7, 10.0),
+    ("Stool", 0.9, 9.4, 0.0),
+    ("Stool", 3.9, 6.1, 0.0),
     # Lookout
     ("Armchair", 1.1, 11.9, -90.0),
     ("Armchair", 1.1, 13.6, -90.0),
