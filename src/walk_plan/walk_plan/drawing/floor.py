@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The floor of a storey as a tinted picture: each room in its own pale colour."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
+from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt, zoom
+
+from walk_building.building import Building
+from walk_plan.drawing import style
+from walk_plan.section import cut
+
+_MARGIN_M = 0.8
+_FINER = 2  # a pixel of the tint is this much smaller than a cell of the surface
+
+
+def storey_bounds(building: Building, storey: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Returns the lower left and the upper right corner of what a storey's plan shows, (2,) each [m]."""
+    section = cut(building.geometry, building.storeys[storey].elevation_m + 1.2)
+    here = building.surface.places[building.surface.storey == storey, :2]
+    shown = np.vstack([here, *section.lines]) if len(here) or section.lines else building.geometry.bounds[:, :2]
+    return shown.min(axis=0) - _MARGIN_M, shown.max(axis=0) + _MARGIN_M
+
+
+def tinted_floor(axes: Axes, building: Building, storey: int) -> None:
+    """Draws where one can stand, room by room, widened to the walls."""
+    surface = building.surface
+    nx, ny = surface.columns.shape
+    room = np.full(nx * ny, -2)
+    here = (surface.storey == storey) & (surface.indoor | building.reachable)
+    room[surface.columns.flat_of(surface.places[here, :2])] = surface.room[here]
+    if not (room > -2).any():
+        return
+    labels = zoom(room.reshape(nx, ny), _FINER, order=0, grid_mode=True, mode="nearest")
+    # A body's radius from the walls nobody can stand; the tint reaches them all the same.
+    away, nearest = distance_transform_edt(labels == -2, return_indices=True)
+    reach = (building.walker.radius_m + surface.cell_m) / surface.cell_m * _FINER
+    wide = np.where(away <= reach, labels[tuple(nearest)], -2)
+    palette = np.array([to_rgba("white", 0.0), to_rgba(style.OPEN_FLOOR)] + [to_rgba(c) for c in style.ROOM_TINTS])
+    index = np.where(wide >= 0, 2 + wide % len(style.ROOM_TINTS), wide + 2)
+    low = surface.columns.origin - surface.cell_m / 2
+    high = low + np.array([nx, ny]) * surface.cell_m
+    extent = (low[0], high[0], low[1], high[1])
+    axes.imshow(
+        (palette[index] * 255).astype(np.uint8).swapaxes(0, 1), extent=extent, origin="lower", interpolation="nearest",
+        zorder=1, aspect="equal",
+    )  # fmt: skip

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The three maps and the importance, storey by storey (the source's figure 1)."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from walk_building.building import Building
+from walk_importance.importance_map import ImportanceMap
+from walk_plan.drawing import style
+from walk_plan.drawing.floor import storey_bounds
+from walk_plan.profile import storeys_along
+from walk_plan.walkthrough import Walkthrough
+
+_COLUMNS = ("Obstacles", "Distance to the nearest obstacle", "Openness: share of the space in view", "Importance")
+_GAP_IN, _HEAD_IN, _FOOT_IN, _NAME_IN = 0.1, 0.28, 0.5, 0.2
+_MAX_PANEL_IN = 3.4
+_WALL = (0.22, 0.25, 0.28, 1.0)
+
+
+def draw_maps(walkthrough: Walkthrough, storeys: list[int]) -> Figure:
+    """Returns one picture with a row for each of the storeys and a column for each map, at the height of the eye."""
+    building = walkthrough.building
+    bounds = [storey_bounds(building, storey) for storey in storeys]
+    low = np.min([b[0] for b in bounds], axis=0)
+    high = np.max([b[1] for b in bounds], axis=0)
+    panel = (style.WIDTH_IN - 3 * _GAP_IN) / 4
+    tall = min(panel * (high - low)[1] / (high - low)[0], _MAX_PANEL_IN)
+    row = tall + _NAME_IN
+    height = _HEAD_IN + row * len(storeys) + _FOOT_IN
+    made = style.figure(style.WIDTH_IN, height)
+    scales = _scales(walkthrough.importance_map, building, storeys)
+    for r, storey in enumerate(storeys):
+        for c, title in enumerate(_COLUMNS):
+            bottom = height - _HEAD_IN - (r + 1) * row
+            axes = made.add_axes((c * (panel + _GAP_IN) / style.WIDTH_IN, bottom / height, panel / style.WIDTH_IN, tall / height))
+            image = _draw_map(axes, walkthrough.importance_map, building, storey, c, scales[c])
+            style.plain_map(axes, low, high)
+            if c == 3:
+                _draw_keypoints(axes, walkthrough, storey)
+            if c == 0:
+                made.text(0.0, (bottom + tall + 0.04) / height, building.storeys[storey].name, fontsize=style.NORMAL_PT,
+                          weight="bold")  # fmt: skip
+            if r == 0:
+                x = (c * (panel + _GAP_IN) + panel / 2) / style.WIDTH_IN
+                made.text(x, 1.0 - 0.14 / height, title, ha="center", va="center", fontsize=style.NORMAL_PT)
+            if r == len(storeys) - 1:
+                _draw_scale(made, image, c, c * (panel + _GAP_IN), panel, height)
+    return made
+
+
+def slice_index(importance_map: ImportanceMap, z_m: float) -> int:
+    """Returns the layer of voxels that holds the height, or the nearest one."""
+    grid = importance_map.grid
+    return int(np.clip(np.floor((z_m - grid.origin[2]) / grid.voxel_size_m), 0, grid.shape[2] - 1))
+
+
+def _layers(importance_map: ImportanceMap, building: Building, storey: int) -> tuple[NDArray[np.float32], ...]:
+    k = slice_index(importance_map, building.storeys[storey].elevation_m + building.walker.eye_height_m)
+    four = (importance_map.obstacle, importance_map.distance, importance_map.visibility, importance_map.importance)
+    return tuple(layer[:, :, k] for layer in four)
+
+
+def _scales(importance_map: ImportanceMap, building: Building, storeys: list[int]) -> list[tuple[float, float]]:
+    layers = [_layers(importance_map, building, storey) for storey in storeys]
+    scales = []
+    for c in range(4):
+        values = np.concatenate([four[c][four[0] == 0.0] for four in layers])
+        low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
+        scales.append((low if c == 3 else 0.0, max(high, low + 1e-6)))
+    return scales
+
+
+def _draw_map(
+    axes: Axes, importance_map: ImportanceMap, building: Building, storey: int, which: int, scale: tuple[float, float]
+) -> object:
+    grid = importance_map.grid
+    layers = _layers(importance_map, building, storey)
+    solid = layers[0] > 0.0
+    values = np.ma.masked_where(solid, layers[which])
+    colours = style.MAP.with_extremes(bad=_WALL)
+    x, y = grid.origin[:2]
+    extent = (x, x + grid.shape[0] * grid.voxel_size_m, y, y + grid.shape[1] * grid.voxel_size_m)
+    shown = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+    if which == 0:
+        return axes.imshow(solid.T, cmap=style.SOLID, vmin=0.0, vmax=1.0, **shown)  # type: ignore[arg-type]
+    return axes.imshow(values.T, cmap=colours, vmin=scale[0], vmax=scale[1], **shown)  # type: ignore[arg-type]
+
+
+def _draw_keypoints(axes: Axes, walkthrough: Walkthrough, storey: int) -> None:
+    keypoints = walkthrough.keypoints
+    here = keypoints[storeys_along(walkthrough.building, keypoints) == storey]
+    axes.plot(
+        here[:, 0], here[:, 1], linestyle="none", marker="o", markersize=3.2, markerfacecolor="white",
+        markeredgecolor=style.INK, markeredgewidth=0.6,
+    )  # fmt: skip
+
+
+def _draw_scale(made: Figure, image: object, which: int, left: float, panel: float, height: float) -> None:
+    bar = made.add_axes(((left + 0.2 * panel) / style.WIDTH_IN, 0.26 / height, 0.6 * panel / style.WIDTH_IN, 0.08 / height))
+    colours = made.colorbar(image, cax=bar, orientation="horizontal")  # type: ignore[arg-type]
+    if which == 0:
+        colours.set_ticks([0.25, 0.75], labels=["free", "solid"])
+    else:
+        low, high = image.get_clim()  # type: ignore[attr-defined]
+        words = ("none", "far") if which == 1 else (f"{100 * low:.0f} %", f"{100 * high:.0f} %") if which == 2 else ("low", "high")
+        colours.set_ticks([low, high], labels=words)
+    colours.outline.set_linewidth(0.4)  # type: ignore[operator]
+    bar.tick_params(labelsize=style.SMALL_PT, length=2, width=0.4, pad=1.5)

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The whole method in one process: from a building file to a folder of results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from walk_building.building import Building
+from walk_building.pipeline import load_building
+from walk_building.progress import Progress, no_progress
+from walk_building.sweep import BodySweep
+from walk_importance.importance_map import ImportanceMap
+from walk_importance.keypoints import Suggestion, suggest_keypoints
+from walk_importance.pipeline import compute_importance
+from walk_plan.baselines import baselines, look_targets
+from walk_plan.errors import NoWalkError
+from walk_plan.options import PlanConfig
+from walk_plan.output_folder import OutputFolder
+from walk_plan.outputs import MARKER, write_outputs
+from walk_plan.profile import profile
+from walk_plan.quality import PathQuality, measure
+from walk_plan.rooms import room_visits
+from walk_plan.seen import sample_free_space
+from walk_plan.stages import StageClock
+from walk_plan.walkthrough import Walkthrough
+from walk_sequencer.pipeline import plan_tour
+from walk_sequencer.tour import Tour
+from walk_trajopt.pipeline import optimise_path
+from walk_trajopt.timing import time_path
+from walk_trajopt.trajectory import Trajectory
+from walk_trajopt.path import OptimisedPath
+
+
+def plan_walkthrough(
+    building_path: Path | str,
+    out_dir: Path | str,
+    options: PlanConfig | None = None,
+    progress: Progress = no_progress,
+) -> Walkthrough:
+    """Plans a walk through a building and writes all results to a folder.
+
+    Args:
+        building_path: The building file.
+        out_dir: Where the results go: all of them, or none if anything goes wrong.
+        options: Everything a user can tune.
+        progress: Told of the stages in `stages.STAGES`.
+
+    Raises:
+        WalkError: The building cannot be used, nothing in it can be walked, or the folder cannot be written.
+    """
+    with OutputFolder(out_dir, MARKER) as folder:
+        clock = StageClock(progress)
+        walkthrough = make_walkthrough(building_path, options or PlanConfig(), clock)
+        with clock.stage("write") as told:
+            write_outputs(walkthrough, folder, told)
+    return walkthrough
+
+
+def make_walkthrough(building_path: Path | str, config: PlanConfig, clock: StageClock) -> Walkthrough:
+    """Returns the planned walk with its figures; writes nothing.
+
+    Raises:
+        WalkError: The building cannot be used, or nothing in it can be walked.
+    """
+    with clock.stage("load") as told:
+        building = load_building(building_path, config.load, config.walker, told)
+    with clock.stage("importance") as told:
+        importance_map = compute_importance(building, config.importance, told)
+    with clock.stage("keypoints"):
+        suggestion = suggest_keypoints(building, importance_map, config.keypoints)
+    with clock.stage("tour") as told:
+        tour = plan_tour(building, suggestion.positions, config.tour, told)
+        _check(building, tour)
+    with clock.stage("trajectory") as told:
+        path = optimise_path(building, tour.polyline, tour.stands[tour.order], config.trajectory, told)
+    with clock.stage("timing"):
+        trajectory = time_path(path, config.timing, look_targets(suggestion, tour.stands, tour.order))
+    with clock.stage("metrics") as told:
+        return _assess(config, building, importance_map, suggestion, tour, path, trajectory, clock, told)
+
+
+def _check(building: Building, tour: Tour) -> None:
+    if len(tour.order) < 2:
+        reasons = "; ".join(sorted({unreachable.reason for unreachable in tour.unreachable}))
+        raise NoWalkError(building.model.source, len(tour.order), reasons)
+
+
+def _assess(
+    config: PlanConfig,
+    building: Building,
+    importance_map: ImportanceMap,
+    suggestion: Suggestion,
+    tour: Tour,
+    path: OptimisedPath,
+    trajectory: Trajectory,
+    clock: StageClock,
+    progress: Progress,
+) -> Walkthrough:
+    """Measures the walk and those it is compared with."""
+    sweep = BodySweep(building.geometry, building.walker)
+    free_space = sample_free_space(building, importance_map)
+    qualities: list[PathQuality] = [measure("ours", building, sweep, path.points, trajectory, free_space)]
+    progress("metrics", 0.3)
+    others = baselines(building, suggestion, tour, config)
+    for done, walk in enumerate(others, start=1):
+        qualities.append(measure(walk.name, building, sweep, walk.path, walk.trajectory, free_space))
+        progress("metrics", 0.5 + 0.4 * done / len(others))
+    return Walkthrough(
+        config=config,
+        building=building,
+        importance_map=importance_map,
+        suggestion=suggestion,
+        tour=tour,
+        path=path,
+        trajectory=trajectory,
+        profile=profile(building, sweep, trajectory),
+        qualities=tuple(qualities),
+        visits=room_visits(building, suggestion, tour.order, qualities[0].rooms),
+        warnings=building.warnings,
+        stage_s=clock.seconds,
+    )
