@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -25,6 +27,7 @@ from walk_ros.diagnostics import Diagnostics, error_code
 from walk_ros.errors import MessageError
 from walk_ros.log import forward_logging
 from walk_ros.parameters import ConfigParameters
+from walk_ros.qos import latched
 from walk_ros.topics import NAMESPACE, TOPICS
 from walk_ros.worker import Superseded, Worker
 
@@ -39,13 +42,12 @@ class WalkNode(Node):
     cannot be done. Both run in the worker's thread.
     """
 
-    def __init__(self, name: str, configs: Mapping[str, type[Config]], default_building: str) -> None:
+    def __init__(self, name: str, configs: Mapping[str, type[Config]]) -> None:
         """Declares the parameters and starts the diagnostics; the worker starts with `start`.
 
         Args:
             name: Of the node.
             configs: Config classes by parameter group, beside `load` and `walker`.
-            default_building: Path that the parameter `building` has by default.
         """
         super().__init__(name, namespace=NAMESPACE)
         forward_logging(self.get_logger())
@@ -56,13 +58,18 @@ class WalkNode(Node):
         self._last_revision_ns = 0
         self._revision_lock = threading.Lock()
         self._publishing: dict[str, Any] = {}
-        self.declare_parameter("building", default_building)
+        self.declare_text("building", "", "path of the building file; empty for the sample building")
         groups = {"load": LoadOptions, "walker": Walker, **configs}
         self.parameters = ConfigParameters(self, groups, self._changed)
         self.add_post_set_parameters_callback(self._building_changed)
+        self.offer("/diagnostics")
         # A steady clock: diagnostics go on where simulated time stands still.
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(1.0, self.publish_diagnostics, clock=self._steady)
+
+    def declare_text(self, name: str, default: str, description: str) -> None:
+        """Declares a parameter that is a text."""
+        self.declare_parameter(name, default, ParameterDescriptor(description=description))
 
     def start(self) -> None:
         """Starts the worker; the last thing a subclass's constructor does."""
@@ -93,15 +100,24 @@ class WalkNode(Node):
 
         self.create_subscription(TOPICS[topic].type, topic, callback, TOPICS[topic].qos)
 
-    def offer(self, *topics: str) -> None:
-        """Makes the publishers of topics of the table."""
+    def offer(self, *topics: str, depth: int = 0) -> None:
+        """Makes the publishers of topics of the table; a depth other than 0 replaces the table's."""
         for topic in topics:
-            self._publishing[topic] = self.create_publisher(TOPICS[topic].type, topic, TOPICS[topic].qos)
+            qos = latched(depth) if depth else TOPICS[topic].qos
+            old = self._publishing.get(topic)
+            self._publishing[topic] = self.create_publisher(TOPICS[topic].type, topic, qos)
+            if old is not None:
+                self.destroy_publisher(old)
 
     def publish(self, topic: str, msg: Any) -> None:
         """Publishes on a topic that was offered, from any thread; a node that is ending says no more."""
         if self.context.ok():
             self._publishing[topic].publish(msg)
+
+    def publish_all(self, messages: Iterable[tuple[str, Any]]) -> None:
+        """Publishes on several topics, in the order given."""
+        for topic, msg in messages:
+            self.publish(topic, msg)
 
     def revision(self) -> int:
         """Returns a new stamp [ns]: the clock's time, but always later than the one before."""
@@ -115,13 +131,7 @@ class WalkNode(Node):
 
     def publish_diagnostics(self) -> None:
         """Publishes the state now; the timer does so every second."""
-        self.offer_once("/diagnostics")
         self.publish("/diagnostics", self.diagnostics.to_msg(self.get_clock().now().nanoseconds))
-
-    def offer_once(self, topic: str) -> None:
-        """Offers the topic unless it is offered."""
-        if topic not in self._publishing:
-            self.offer(topic)
 
     def report(self, error: Exception) -> None:
         """Logs an error, sets the diagnostics and publishes empty messages; the node lives on."""
@@ -166,11 +176,9 @@ class WalkNode(Node):
         self.forget()
         self.diagnostics.state("loading", f"loading {path}")
         self.diagnostics.building(path, "")
-        if not path:
-            raise BuildingError(Path(), "no building is given; set the parameter 'building' to its file")
         began = time.perf_counter()
         try:
-            self.building = load_building(path, wanted[1], wanted[2], self.worker.progress)
+            self.building = load_building(path or _sample(), wanted[1], wanted[2], self.worker.progress)
         except Superseded:
             raise
         except Exception:
@@ -181,3 +189,14 @@ class WalkNode(Node):
         self.diagnostics.building(path, self.building.hash)
         self.diagnostics.state("ready")
         self.get_logger().info(f"loaded {path} in {time.perf_counter() - began:.1f} s")
+
+
+def _sample() -> Path:
+    """Returns the sample building; raises BuildingError where it is not installed."""
+    try:
+        # By name: walk_bringup has the nodes among what it depends on, and they run without it.
+        return Path(importlib.import_module("walk_bringup.sample.location").sample_path())
+    except (ImportError, FileNotFoundError) as error:
+        raise BuildingError(
+            "", f"no building is given, and no sample: {error}; set the parameter 'building'"
+        ) from error

@@ -15,6 +15,7 @@ import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
+from rclpy.utilities import remove_ros_args
 
 from walk_building.errors import WalkError
 from walk_ros.errors import ArgumentError
@@ -50,6 +51,11 @@ def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> 
         sys.stderr.flush()
         os._exit(code)
     return code
+
+
+def user_arguments(argv: Sequence[str]) -> list[str]:
+    """Returns the command line without its `--ros-args` parts."""
+    return list(remove_ros_args(args=list(argv)))
 
 
 def _start_middleware(args: Sequence[str] | None) -> None:

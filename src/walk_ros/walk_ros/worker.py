@@ -74,4 +74,5 @@ class Worker:
             except Superseded:
                 continue
             except Exception as error:  # a node lives on, whatever one step ran into
-                self._on_error(error)
+                if not self._stopped.is_set():
+                    self._on_error(error)

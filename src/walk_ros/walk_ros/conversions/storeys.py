@@ -26,7 +26,7 @@ class StoreyGrid:
 
     origin: NDArray[np.float64]  # (3,) lowest corner, z on the storey's floor [m]
     cell_m: float
-    percent: NDArray[np.int8]  # (nx, ny): 0..100 of the map's highest importance, -1 obstacle or unknown
+    percent: NDArray[np.int8]  # (nx, ny): 0..100 from the least to the most important free voxel, -1 obstacle
 
 
 def storey_grid(importance_map: ImportanceMapLike, floor_z: float, eye_height_m: float) -> StoreyGrid:
@@ -35,10 +35,13 @@ def storey_grid(importance_map: ImportanceMapLike, floor_z: float, eye_height_m:
     layer = int(np.floor((floor_z + eye_height_m - grid.origin[2]) / grid.voxel_size_m))
     percent = np.full(grid.shape[:2], UNKNOWN, np.int8)
     if 0 <= layer < grid.shape[2]:
-        free = np.asarray(importance_map.obstacle[:, :, layer]) < 0.5
-        top = float(np.max(importance_map.importance, initial=0.0)) or 1.0
-        scaled = np.clip(100.0 * np.asarray(importance_map.importance[:, :, layer]) / top, 0.0, 100.0)
-        percent[free] = np.rint(scaled[free]).astype(np.int8)
+        free = np.asarray(importance_map.obstacle) < 0.5
+        # Between the free voxels' extremes: their common share of the obstacle map would leave no contrast.
+        of_free = importance_map.importance[free]
+        low, high = (float(of_free.min()), float(of_free.max())) if of_free.size else (0.0, 1.0)
+        here = free[:, :, layer]
+        scaled = 100.0 * (importance_map.importance[:, :, layer][here] - low) / max(high - low, 1e-9)
+        percent[here] = np.rint(np.clip(scaled, 0.0, 100.0)).astype(np.int8)
     origin = read_only([grid.origin[0], grid.origin[1], floor_z], np.float64, (3,))
     percent.flags.writeable = False
     return StoreyGrid(origin=origin, cell_m=grid.voxel_size_m, percent=percent)

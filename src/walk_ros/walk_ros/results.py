@@ -1,0 +1,159 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The messages that each node publishes for its result; recordings made without a graph hold the same ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_ros.conversions.importance import ImportanceMapLike, importance_map_to_msg
+from walk_ros.conversions.legs import LegLike, pairwise_paths_to_msg
+from walk_ros.conversions.markers import cleared, keypoint_markers_to_msg
+from walk_ros.conversions.paths import path_to_msg, tour_to_msg
+from walk_ros.conversions.poses import keypoints_to_msg, viewpoint_to_msg
+from walk_ros.conversions.stamps import NS
+from walk_ros.conversions.storeys import storey_grid, storey_grid_to_msg
+from walk_ros.conversions.trajectories import TrajectoryLike, trajectory_to_msg
+
+TopicMessages = list[tuple[str, Any]]
+"""Relative topic names and messages, in the order they are published."""
+
+NO_POINTS = np.empty((0, 3))
+NO_TURNS = np.empty((0, 4))
+
+
+class UnreachableLike(Protocol):
+    """A keypoint that the tour leaves out."""
+
+    @property
+    def index(self) -> int:
+        """Into the keypoints."""
+
+    @property
+    def reason(self) -> str:
+        """In words."""
+
+
+class TourLike(Protocol):
+    """What a tour has."""
+
+    @property
+    def order(self) -> NDArray[np.int64]:
+        """(M,) indices into the keypoints."""
+
+    @property
+    def unreachable(self) -> Sequence[UnreachableLike]:
+        """What it leaves out."""
+
+    @property
+    def pairs(self) -> Sequence[LegLike]:
+        """All planned pairs."""
+
+    @property
+    def lengths_m(self) -> NDArray[np.float64]:
+        """(K, K) walkable lengths, inf where there is no way."""
+
+    @property
+    def polyline(self) -> NDArray[np.float64]:
+        """(L, 3) eye positions."""
+
+
+def map_messages(
+    importance_map: ImportanceMapLike | None, floors_z: Sequence[float], eye_height_m: float, stamp_ns: int
+) -> TopicMessages:
+    """Returns the importance map and a grid per storey; None gives empty ones."""
+    if importance_map is None:
+        return [
+            ("importance_map", importance_map_to_msg(None, stamp_ns)),
+            ("importance_map/storeys", storey_grid_to_msg(None, stamp_ns)),
+        ]
+    grids = [storey_grid(importance_map, floor_z, eye_height_m) for floor_z in floors_z]
+    storeys = [("importance_map/storeys", storey_grid_to_msg(grid, stamp_ns)) for grid in grids]
+    return [("importance_map", importance_map_to_msg(importance_map, stamp_ns)), *storeys]
+
+
+def suggestion_messages(positions: NDArray[np.float64], quat_xyzw: NDArray[np.float64], stamp_ns: int) -> TopicMessages:
+    """Returns the suggested keypoints (K, 3), (K, 4), best first."""
+    return [("suggested_keypoints", keypoints_to_msg(positions, quat_xyzw, stamp_ns))]
+
+
+def tour_messages(
+    tour: TourLike | None,
+    positions: NDArray[np.float64],
+    quat_xyzw: NDArray[np.float64],
+    ids: Sequence[int],
+    labels: Sequence[str],
+    stamp_ns: int,
+    removed: Iterable[int] = (),
+) -> TopicMessages:
+    """Returns keypoints, markers, legs and the tour; None gives empty ones.
+
+    Args:
+        tour: Through the keypoints below.
+        positions: (K, 3) eye positions, in the keypoints' own order.
+        quat_xyzw: (K, 4) view directions.
+        ids: (K,) stable identities.
+        labels: (K,) what a viewer writes beside them.
+        stamp_ns: The revision.
+        removed: Identities shown before and gone now.
+    """
+    if tour is None:
+        gone = keypoint_markers_to_msg(NO_POINTS, NO_TURNS, (), (), stamp_ns, removed=removed)
+        return [
+            ("keypoints", keypoints_to_msg(NO_POINTS, NO_TURNS, stamp_ns)),
+            ("keypoint_markers", gone),
+            ("pairwise_paths", cleared(stamp_ns)),
+            ("tour", tour_to_msg(NO_POINTS, stamp_ns)),
+        ]
+    order = [int(i) for i in tour.order]
+    left_out = {int(u.index): u.reason for u in tour.unreachable}
+    markers = keypoint_markers_to_msg(
+        positions[order],
+        quat_xyzw[order],
+        [ids[i] for i in order],
+        [labels[i] for i in order],
+        stamp_ns,
+        left_out=[(ids[i], positions[i], reason) for i, reason in left_out.items()],
+        removed=removed,
+    )
+    return [
+        ("keypoints", keypoints_to_msg(positions[order], quat_xyzw[order], stamp_ns)),
+        ("keypoint_markers", markers),
+        ("pairwise_paths", pairwise_paths_to_msg(tour.pairs, ids, stamp_ns, _no_way(tour, left_out))),
+        ("tour", tour_to_msg(tour.polyline, stamp_ns)),
+    ]
+
+
+def _no_way(tour: TourLike, left_out: dict[int, str]) -> list[tuple[int, int, str]]:
+    """Returns the pairs between which nobody can walk, with the reason."""
+    upper = np.triu(np.isinf(tour.lengths_m), 1)
+    pairs = [(int(a), int(b)) for a, b in np.argwhere(upper)]
+    return [(a, b, left_out.get(a) or left_out.get(b) or "no way between them") for a, b in pairs]
+
+
+def path_messages(trajectory: TrajectoryLike | None, stamp_ns: int) -> TopicMessages:
+    """Returns the path with planned arrival times and the trajectory; None gives empty ones."""
+    walk = trajectory or _Nothing()
+    return [
+        ("path", path_to_msg(walk.t_s, walk.positions, walk.quat_xyzw, stamp_ns)),
+        ("trajectory", trajectory_to_msg(walk, stamp_ns)),
+    ]
+
+
+def viewpoint_messages(trajectory: TrajectoryLike, stamp_ns: int) -> list[tuple[int, Any]]:
+    """Returns where the eye is at each time [ns] of the trajectory: what playback publishes on `viewpoint`."""
+    times = (stamp_ns + np.rint(trajectory.t_s * NS).astype(np.int64)).tolist()
+    rows = zip(times, trajectory.positions, trajectory.quat_xyzw, strict=True)
+    return [(at, viewpoint_to_msg(position, quat, at)) for at, position, quat in rows]
+
+
+class _Nothing:
+    """A trajectory without a row."""
+
+    t_s = np.empty(0)
+    positions = velocities = accelerations = NO_POINTS
+    quat_xyzw = NO_TURNS

@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Accepted changes on disk: a line of JSON each, written through before the change is confirmed."""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+from collections.abc import Iterator
+from pathlib import Path
+
+from walk_building.errors import WalkError
+from walk_sequencer.keypoints import Entry, Keypoints, changed
+
+_log = logging.getLogger(__name__)
+
+
+class JournalError(WalkError):
+    """A journal that cannot be read or written.
+
+    Attributes:
+        path: The file.
+        reason: What the system says.
+    """
+
+    def __init__(self, path: Path, reason: str) -> None:
+        self.path = path
+        self.reason = reason
+        super().__init__(f"{path}: the journal of edits cannot be kept: {reason}; set 'state_dir' to another folder")
+
+
+def default_state_dir() -> Path:
+    """Returns the folder for what a program keeps between runs, by the XDG base directory specification."""
+    home = os.environ.get("XDG_STATE_HOME", "")
+    return (Path(home) if Path(home).is_absolute() else Path.home() / ".local" / "state") / "walk"
+
+
+class Journal:
+    """The changes of one building's keypoints. One process writes it."""
+
+    def __init__(self, folder: Path, building_hash: str) -> None:
+        """Opens the journal; `replay` reads it and must come before `append`."""
+        self.path = folder / f"{building_hash}.jsonl"
+
+    def replay(self) -> Keypoints:
+        """Returns the keypoints after all changes in the journal; no keypoints where there is none.
+
+        A last line that was cut off by a crash was never confirmed and is taken off. From a line on that does not
+        fit for another reason the journal is put aside, and what stands before it counts.
+
+        Raises:
+            JournalError: The folder or the file cannot be read or written.
+        """
+        try:
+            return self._replay()
+        except OSError as error:
+            raise JournalError(self.path, error.strerror or str(error)) from error
+
+    def append(self, entry: Entry) -> None:
+        """Writes a change through to the disk; it may be confirmed after this.
+
+        Raises:
+            JournalError: The file cannot be written.
+        """
+        line = json.dumps(dict(entry), allow_nan=False) + "\n"
+        try:
+            with self.path.open("ab") as file:
+                file.write(line.encode())
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise JournalError(self.path, error.strerror or str(error)) from error
+
+    def put_aside(self) -> None:
+        """Renames the journal to `.old`, so that the next start begins without it."""
+        try:
+            if self.path.exists():
+                self.path.replace(self.path.with_suffix(".old"))
+        except OSError as error:
+            raise JournalError(self.path, error.strerror or str(error)) from error
+
+    def _replay(self) -> Keypoints:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        keypoints = Keypoints()
+        if not self.path.exists():
+            return keypoints
+        text = self.path.read_bytes()
+        good = 0
+        for end, line in _lines(text):
+            try:
+                keypoints = changed(keypoints, json.loads(line))
+            except (ValueError, KeyError, TypeError, AttributeError):
+                break
+            good = end
+        if good < len(text):
+            self._cut(text, good)
+        return keypoints
+
+    def _cut(self, text: bytes, good: int) -> None:
+        """Keeps the first `good` bytes; a whole copy is put aside unless only the last line is missing its end."""
+        torn = b"\n" not in text[good:]
+        if not torn:
+            aside = self.path.with_suffix(".damaged")
+            aside.write_bytes(text)
+            _log.warning("%s is damaged; what stands before the damage counts, a copy is in %s", self.path, aside)
+        with self.path.open("r+b") as file:
+            file.truncate(good)
+            file.flush()
+            os.fsync(file.fileno())
+
+
+def _lines(text: bytes) -> Iterator[tuple[int, bytes]]:
+    """Yields whole lines with the offset of their end."""
+    start = 0
+    while (end := text.find(b"\n", start)) >= 0:
+        yield end + 1, text[start:end]
+        start = end + 1
