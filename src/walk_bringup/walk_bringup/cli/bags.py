@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk record` and `./walk replay`: the executables of walk_bag."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+
+import click
+
+from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.cli.executables import find_executable
+
+_EXAMPLES = {
+    "record": ("./walk record --out tour_bag", "./walk record --out tour.mcap --topics path trajectory"),
+    "replay": ("./walk replay tour_bag", "./walk replay out/building/tour.mcap"),
+}
+# The options are those of the executables, which explain them themselves.
+_PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
+
+
+@click.command(short_help=COMMANDS["record"], context_settings=_PASS_ON, add_help_option=False)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def record(arguments: tuple[str, ...]) -> int:
+    """Record a walkthrough as a rosbag2 (MCAP) bag."""
+    return _hand_over("record", arguments)
+
+
+@click.command(short_help=COMMANDS["replay"], context_settings=_PASS_ON, add_help_option=False)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def replay(arguments: tuple[str, ...]) -> int:
+    """Publish a recorded walkthrough again."""
+    return _hand_over("replay", arguments)
+
+
+def _hand_over(name: str, arguments: tuple[str, ...]) -> int:
+    path = find_executable("walk_bag", name)
+    sys.stdout.flush()
+    if "--help" in arguments or "-h" in arguments:
+        code = subprocess.run([path, "--help"]).returncode
+        print("\nexamples:", *_EXAMPLES[name], sep="\n  ")
+        return code
+    os.execv(path, [str(path), *arguments])

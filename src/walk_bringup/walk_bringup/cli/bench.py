@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk bench`: the measurements of walk_plan."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from walk_bringup.bootstrap.commands import COMMANDS
+
+_PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
+
+
+@click.command(short_help=COMMANDS["bench"], context_settings=_PASS_ON, add_help_option=False)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def bench(arguments: tuple[str, ...]) -> int:
+    """Measure every stage, side by side with the plain way; walk_plan.bench explains its options itself."""
+    # A fresh process, so that the first stage is not charged with what this one has loaded.
+    sys.stdout.flush()
+    os.execv(sys.executable, [sys.executable, "-m", "walk_plan.bench", *arguments])

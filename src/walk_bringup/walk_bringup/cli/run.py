@@ -1,0 +1,38 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk run`: what `ros2 run` does, where there is no `ros2`."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.cli.executables import executables, find_executable, packages_with_executables
+
+# Everything behind the executable is its own, --help included.
+_PASS_ON = {"ignore_unknown_options": True, "allow_interspersed_args": False}
+
+
+@click.command(short_help=COMMANDS["run"], context_settings=_PASS_ON)
+@click.argument("package", required=False)
+@click.argument("executable", required=False)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def run(package: str | None, executable: str | None, arguments: tuple[str, ...]) -> int:
+    """Start one executable of a package; without names, list them.
+
+    \b
+    Examples:
+      ./walk run
+      ./walk run walk_importance importance --ros-args -p building:=building.ifc
+      ./walk run walk_trajopt trajopt --ros-args -r __ns:=/second -p building:=building.ifc
+    """
+    if package is None:
+        for name in packages_with_executables():
+            print(f"{name}: {', '.join(sorted(executables(name)))}")
+        return 0
+    path = find_executable(package, executable or "")
+    sys.stdout.flush()
+    os.execv(path, [str(path), *arguments])
