@@ -71,7 +71,7 @@ def neighbour_graph(grid: Grid, step_m: float) -> tuple[NDArray[np.int64], NDArr
 
 @numba.njit(cache=True, nogil=True)
 def _floors(start, z, flat, step, height):
-    """Columns and heights of the hits to stand on: flat, nothing a step to a body's height above, none to step up to."""
+    """Columns and heights of the hits to stand on: flat, with head-room, none to step up to."""
     column = np.empty(len(z), np.int64)
     level = np.empty(len(z))
     n = 0
