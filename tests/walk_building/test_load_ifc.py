@@ -12,6 +12,7 @@ import ifcopenshell
 import ifcopenshell.guid
 import numpy as np
 import pytest
+
 from walk_building.errors import BuildingError
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions
@@ -245,8 +246,7 @@ def test_pieces_of_a_door_are_left_out_with_it(tmp_path: Path) -> None:
     storey = scene.file.by_type("IfcBuildingStorey")[0]
     door = scene.box("IfcDoor", "gate", storey, (3, 0, 0), (1, 0.1, 2))
     leaf = scene.box("IfcPlate", "leaf", storey, (3, 0, 0), (1, 0.05, 2))
-    contained = [r for r in leaf.ContainedInStructure]
-    for relation in contained:
+    for relation in list(leaf.ContainedInStructure):
         scene.file.remove(relation)
     scene.aggregate(door, leaf)
     model = load_model(scene.write(tmp_path / "house.ifc"))
@@ -309,8 +309,8 @@ def test_unreadable_geometry_is_named(tmp_path: Path) -> None:
     scene = two_storeys()
     scene.file.by_type("IfcWindow")[0].Representation.Representations[0].Items[0].SweptArea.XDim = -1.0
     model = load_model(scene.write(tmp_path / "house.ifc"))
-    if "window" not in {part.name for part in model.parts}:
-        assert any("'window'" in warning for warning in model.warnings)
+    assert "window" not in {part.name for part in model.parts}
+    assert any("'window'" in warning for warning in model.warnings)
 
 
 def test_engine_writes_nothing_to_the_terminal(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -325,3 +325,32 @@ def test_override_of_the_unit_beats_the_file(tmp_path: Path) -> None:
     model = load_model(path, LoadOptions(units_m=0.002))
     np.testing.assert_allclose(np.ptp(model.vertices, axis=0), [12, 8, 6.4])
     assert model.storeys[1].elevation_m == pytest.approx(6.0)
+
+
+def test_file_without_a_length_unit_is_taken_in_metres_and_says_so(tmp_path: Path) -> None:
+    scene = two_storeys()
+    scene.file.remove(scene.file.by_type("IfcUnitAssignment")[0])
+    path = scene.write(tmp_path / "house.ifc")
+    model = load_model(path)
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), [6, 4, 3.2])
+    assert any("metres are assumed" in warning for warning in model.warnings)
+    assert load_model(path, LoadOptions(units_m=0.5)).vertices.max() == pytest.approx(3.0)
+
+
+def test_space_without_name_or_storey_is_kept(tmp_path: Path) -> None:
+    scene = two_storeys()
+    space = scene.file.by_type("IfcSpace")[0]
+    space.Name = space.LongName = None
+    scene.file.remove(space.Decomposes[0])
+    (found,) = load_model(scene.write(tmp_path / "house.ifc")).spaces
+    assert found.name == f"IfcSpace #{space.id()}" and (found.long_name, found.storey) == ("", "")
+
+
+def test_wrong_types_in_a_damaged_file_are_refused(tmp_path: Path) -> None:
+    path = two_storeys().write(tmp_path / "house.ifc")
+    text = path.read_text()
+    wall = next(line for line in text.splitlines() if "=IFCWALL(" in line)
+    placement = wall.split(",")[5]
+    path.write_text(text.replace(wall, wall.replace(wall.split(",")[6], placement)))
+    with pytest.raises(BuildingError, match="damaged"):
+        load_model(path)

@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is loaded but doubtful is said."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from walk_building.loaders import load_model
+from walk_building.model import LoadOptions
+
+_TO_Y_UP = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=float)
+
+
+def building(size: tuple[float, float, float], slabs: int, walls: int) -> trimesh.Trimesh:
+    """Slabs of 0.2 m from the ground up, and as many walls across and along as asked for."""
+    x, y, z = size
+    boxes = [([0, 0, u], [x, y, u + 0.2]) for u in np.linspace(0, z - 0.2, slabs)]
+    boxes += [([u, 0, 0], [u + 0.2, y, z]) for u in np.linspace(0, x - 0.2, walls)]
+    boxes += [([0, u, 0], [x, u + 0.2, z]) for u in np.linspace(0, y - 0.2, walls)]
+    return trimesh.util.concatenate([trimesh.creation.box(bounds=bounds) for bounds in boxes])
+
+
+# House with a roof, office without one and with many walls, hall, row of shops without a roof, tower.
+_BUILDINGS = [
+    ((10, 8, 6), 3, 3),
+    ((60, 50, 3), 1, 14),
+    ((40, 20, 10), 2, 2),
+    ((100, 10, 4), 1, 2),
+    ((20, 20, 90), 31, 3),
+]
+
+
+@pytest.mark.parametrize(("size", "slabs", "walls"), _BUILDINGS)
+def test_upright_buildings_are_not_suspected(
+    tmp_path: Path, size: tuple[float, float, float], slabs: int, walls: int
+) -> None:
+    path = tmp_path / "house.stl"
+    building(size, slabs, walls).export(path)
+    assert not any("on its side" in warning for warning in load_model(path).warnings)
+
+
+@pytest.mark.parametrize(("size", "slabs", "walls"), _BUILDINGS[:4])
+def test_building_on_its_side_is_suspected_and_set_right_by_the_option(
+    tmp_path: Path, size: tuple[float, float, float], slabs: int, walls: int
+) -> None:
+    path = tmp_path / "house.stl"
+    building(size, slabs, walls).apply_transform(_TO_Y_UP).export(path)
+    assert any("--up y" in warning for warning in load_model(path).warnings)
+    model = load_model(path, LoadOptions(up="y"))
+    assert not any("on its side" in warning for warning in model.warnings)
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), size, atol=1e-4)
+
+
+def test_z_up_gltf_is_told_to_try_z(tmp_path: Path) -> None:
+    path = tmp_path / "house.glb"
+    building((10, 8, 6), 3, 3).export(path)
+    assert any("--up z" in warning for warning in load_model(path).warnings)
+    assert load_model(path, LoadOptions(up="z")).warnings == ()
+
+
+def test_coarse_coordinates_are_said(tmp_path: Path) -> None:
+    far = building((10, 8, 6), 3, 3).apply_translation([600_000, 5_400_000, 0])
+    single, double = tmp_path / "far.stl", tmp_path / "far.obj"
+    far.export(single)
+    double.write_text(far.export(file_type="obj", digits=3))
+    assert any("steps of 500 mm" in warning for warning in load_model(single).warnings)
+    assert not any("steps" in warning for warning in load_model(double).warnings)
+
+
+def test_furniture_cannot_be_told_apart_in_a_mesh(tmp_path: Path) -> None:
+    path = tmp_path / "house.stl"
+    building((10, 8, 6), 3, 3).export(path)
+    assert any("furniture" in warning for warning in load_model(path, LoadOptions(furniture=False)).warnings)
