@@ -20,3 +20,11 @@ def every(points: NDArray[np.float64], spacing_m: float) -> NDArray[np.float64]:
     count = int(np.ceil(at[-1] / spacing_m)) + 1
     where = np.linspace(0.0, at[-1], max(count, 2))
     return np.column_stack([np.interp(where, at, points[:, i]) for i in range(3)])
+
+
+def densified(points: NDArray[np.float64], spacing_m: float) -> NDArray[np.float64]:
+    """Returns the (n, d) points with as many between as keep neighbours within `spacing_m`."""
+    pieces = np.maximum(np.ceil(np.linalg.norm(np.diff(points, axis=0), axis=1) / spacing_m).astype(int), 1)
+    share = (np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / np.repeat(pieces, pieces)
+    start, step = np.repeat(points[:-1], pieces, axis=0), np.repeat(np.diff(points, axis=0), pieces, axis=0)
+    return np.vstack([start + share[:, None] * step, points[-1:]])

@@ -14,6 +14,7 @@ from walk_importance.importance_map import ImportanceMap
 from walk_importance.keypoints import Suggestion, suggest_keypoints
 from walk_importance.pipeline import compute_importance
 from walk_plan.baselines import baselines, look_targets
+from walk_plan.clearance import SideClearance
 from walk_plan.errors import NoWalkError
 from walk_plan.options import PlanConfig
 from walk_plan.output_folder import OutputFolder
@@ -99,12 +100,13 @@ def _assess(
 ) -> Walkthrough:
     """Measures the walk and those it is compared with."""
     sweep = BodySweep(building.geometry, building.walker)
+    beside = SideClearance(building)
     free_space = sample_free_space(building, importance_map)
-    qualities: list[PathQuality] = [measure("ours", building, sweep, path.points, trajectory, free_space)]
+    qualities: list[PathQuality] = [measure("ours", building, sweep, beside, path.points, trajectory, free_space)]
     progress("metrics", 0.3)
     others = baselines(building, suggestion, tour, config)
     for done, walk in enumerate(others, start=1):
-        qualities.append(measure(walk.name, building, sweep, walk.path, walk.trajectory, free_space))
+        qualities.append(measure(walk.name, building, sweep, beside, walk.path, walk.trajectory, free_space))
         progress("metrics", 0.5 + 0.4 * done / len(others))
     return Walkthrough(
         config=config,
@@ -114,7 +116,7 @@ def _assess(
         tour=tour,
         path=path,
         trajectory=trajectory,
-        profile=profile(building, sweep, trajectory),
+        profile=profile(building, beside, trajectory),
         qualities=tuple(qualities),
         visits=room_visits(building, suggestion, tour.order, qualities[0].rooms),
         warnings=building.warnings,

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Building
-from walk_building.sweep import BodySweep
 from walk_plan.along import walked_m
+from walk_plan.clearance import SideClearance
 from walk_plan.quality import turn_rates
 from walk_plan.resample import resample
 from walk_trajopt.trajectory import Trajectory
@@ -30,13 +30,13 @@ class Profile:
     walked_m: NDArray[np.float64]  # (m,) from the start
     positions: NDArray[np.float64]  # (m, 3) of the eye [m]
     height_m: NDArray[np.float64]  # (m,) of the eye above the surface straight below; nan: none
-    clearance_m: NDArray[np.float64]  # (m,) between the standing body and the building
+    clearance_m: NDArray[np.float64]  # (m,) beside the standing body, up to clearance.LIMIT_M
     speed_mps: NDArray[np.float64]  # (m,)
     turn_rate_radps: NDArray[np.float64]  # (m,) of the view
     storey: NDArray[np.int32]  # (m,) index into Building.storeys; -1: no floor near
 
 
-def profile(building: Building, sweep: BodySweep, trajectory: Trajectory) -> Profile:
+def profile(building: Building, beside: SideClearance, trajectory: Trajectory) -> Profile:
     """Returns the table of a trajectory."""
     duration = float(trajectory.t_s[-1] - trajectory.t_s[0])
     samples = resample(trajectory, max(STEP_S, duration / MAX_ROWS))
@@ -49,7 +49,7 @@ def profile(building: Building, sweep: BodySweep, trajectory: Trajectory) -> Pro
         walked_m=walked_m(eyes),
         positions=eyes,
         height_m=np.where(np.isfinite(height), height, np.nan),
-        clearance_m=sweep.standing_clearance(eyes),
+        clearance_m=beside.at(eyes),
         speed_mps=np.interp(samples.t_s, trajectory.t_s, speed),
         turn_rate_radps=turn[held],
         storey=storeys_along(building, eyes),

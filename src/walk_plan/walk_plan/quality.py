@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 from walk_building.building import Building
 from walk_building.sweep import BodySweep
 from walk_plan.along import every, walked_m
+from walk_plan.clearance import SideClearance
 from walk_plan.rooms import rooms_entered
 from walk_plan.seen import seen_share
 from walk_trajopt.trajectory import Trajectory
@@ -26,6 +27,9 @@ LEVEL_RUN_M = 0.6
 LEVEL_RISE_M = 0.03
 """... by more than this. Our own; a step of a stair is 0.15 m and more, a ramp of 5 % rises 0.06 m."""
 
+JERK_STEP_S = 0.1
+"""Time over which changes of the velocity are taken [s]."""
+
 WALKING_SHARE = 0.25
 """Samples slower than this share of the peak speed are starts and stops, not walking."""
 
@@ -37,11 +41,11 @@ class PathQuality:
     name: str
     length_m: float
     duration_s: float
-    min_clearance_m: float  # between the standing body's surface and the building; 0 touches
-    mean_clearance_m: float
+    min_clearance_m: float  # between the standing body's surface and all of the building; 0 touches
+    mean_clearance_m: float  # beside the body, up to clearance.LIMIT_M: floor and ceiling left out
     segments: int  # straight pieces of the path
     colliding_segments: int  # pieces along which the swept body meets the building
-    rms_jerk_mps3: float
+    rms_jerk_mps3: float  # see rms_jerk
     median_speed_mps: float  # while walking
     peak_speed_mps: float
     peak_turn_rate_radps: float  # of the view
@@ -55,6 +59,7 @@ def measure(
     name: str,
     building: Building,
     sweep: BodySweep,
+    beside: SideClearance,
     path: NDArray[np.float64],
     trajectory: Trajectory,
     free_space: NDArray[np.float64],
@@ -65,20 +70,20 @@ def measure(
         name: What the report calls it.
         building: Where it is walked.
         sweep: The walker's body against the building.
+        beside: The space beside the body.
         path: (n, 3) eye positions, straight between [m].
         trajectory: The same path, timed.
         free_space: (s, 3) points that may be seen [m], the same for all walks that are compared.
     """
     eyes = every(path, SAMPLE_SPACING_M)
-    clearance = sweep.standing_clearance(eyes)
     free = sweep.segments_free(path)
     speed = np.linalg.norm(trajectory.velocities, axis=1)
     return PathQuality(
         name=name,
         length_m=float(walked_m(path)[-1]),
         duration_s=float(trajectory.t_s[-1] - trajectory.t_s[0]),
-        min_clearance_m=float(clearance.min()),
-        mean_clearance_m=float(clearance.mean()),
+        min_clearance_m=float(sweep.standing_clearance(eyes).min()),
+        mean_clearance_m=float(beside.at(eyes).mean()),
         segments=len(free),
         colliding_segments=int((~free).sum()),
         rms_jerk_mps3=rms_jerk(trajectory),
@@ -93,13 +98,16 @@ def measure(
 
 
 def rms_jerk(trajectory: Trajectory) -> float:
-    """Returns the root mean square over time of the rate at which the acceleration changes [m/s³]."""
-    step = np.diff(trajectory.t_s)
-    change = np.linalg.norm(np.diff(trajectory.accelerations, axis=0), axis=1)
-    moved = step > 0.0
-    if not moved.any():
-        return 0.0
-    return float(np.sqrt((change[moved] ** 2 / step[moved]).sum() / step[moved].sum()))
+    """Returns the root mean square over time of the rate at which the acceleration changes [m/s³].
+
+    By second differences of the velocity over tenths of a second, what a person feels: closer samples would
+    measure the corners of the polyline, and the same walk would be judged by how finely it is written down.
+    """
+    steps = max(round(float(trajectory.t_s[-1] - trajectory.t_s[0]) / JERK_STEP_S), 2)
+    times = np.linspace(trajectory.t_s[0], trajectory.t_s[-1], steps + 1)
+    velocity = np.column_stack([np.interp(times, trajectory.t_s, trajectory.velocities[:, i]) for i in range(3)])
+    jerk = np.diff(velocity, n=2, axis=0) / (times[1] - times[0]) ** 2
+    return float(np.sqrt((jerk**2).sum(axis=1).mean()))
 
 
 def turn_rates(trajectory: Trajectory) -> NDArray[np.float64]:

@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from walk_plan import wording
+from walk_plan.drawing import style
 from walk_plan.drawing.maps import draw_maps
 from walk_plan.drawing.profiles import draw_profiles
 from walk_plan.drawing.storey_plan import draw_storey
@@ -32,6 +33,7 @@ class Picture:
 
     title: str
     alt: str
+    width_percent: float  # of the text's width
     uri: str  # data: URI, so that the page needs no other file
 
 
@@ -83,7 +85,9 @@ def picture(figure: Figure, title: str, alt: str) -> Picture:
     # A fixed salt and no date: the same plan gives the same file.
     with matplotlib.rc_context({"svg.hashsalt": "walk_plan", "svg.fonttype": "path", "image.composite_image": False}):
         figure.savefig(buffer, format="svg", metadata={"Date": None})
-    return Picture(title=title, alt=alt, uri="data:image/svg+xml;base64," + base64.b64encode(buffer.getvalue()).decode())
+    share = min(round(100 * figure.get_figwidth() / style.WIDTH_IN, 1), 100.0)
+    data = base64.b64encode(buffer.getvalue()).decode()
+    return Picture(title=title, alt=alt, width_percent=share, uri="data:image/svg+xml;base64," + data)
 
 
 def shown_storeys(walkthrough: Walkthrough) -> list[int]:

@@ -25,10 +25,8 @@ class RoomVisit:
 
 def rooms_entered(building: Building, eyes: NDArray[np.float64]) -> tuple[int, ...]:
     """Returns the rooms that the eyes (n, 3) pass through, each once, in the order of the first time."""
-    if not building.reachable.any():
-        return ()
     feet = eyes - [0.0, 0.0, building.walker.eye_height_m]
-    room = building.surface.room[building.surface.nearest(feet, building.reachable)]
+    room = building.surface.room[building.surface.nearest(feet)]
     first = np.sort(np.unique(room, return_index=True)[1])
     return tuple(int(room[i]) for i in first if room[i] >= 0)
 

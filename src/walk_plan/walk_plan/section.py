@@ -5,15 +5,18 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 from walk_building.geometry import Geometry
+from walk_building.model import Part
 
 _SNAP_M = 1e-3  # ends of cut lines closer than this are one corner
-_MAX_SOLID_M = 0.8  # a closed outline that is thinner is something solid; a wider one may be a room
+_MAX_SOLID_M = 0.8  # a closed outline that is thinner is something solid; a wider one may be a room ...
+_MAX_COLUMN_M2 = 1.5  # ... unless it is as small as a column
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,27 +28,32 @@ class Section:
     solids: tuple[shapely.Polygon, ...]  # the cut through walls and columns, where the mesh encloses them
 
 
-def cut(geometry: Geometry, z_m: float) -> Section:
-    """Returns the exact section of the mesh with the plane z = `z_m`."""
-    segments = cut_segments(geometry.vertices, geometry.faces, z_m)
-    if len(segments) == 0:
-        return Section(z_m=z_m, lines=(), solids=())
-    # Snapped to the grid before merging: neighbouring triangles compute the corner they share differently.
+def cut(geometry: Geometry, z_m: float, parts: Sequence[Part] = ()) -> Section:
+    """Returns the exact section of the mesh with the plane z = `z_m`.
+
+    Args:
+        geometry: The mesh.
+        z_m: Height of the plane [m].
+        parts: Pieces of the mesh that are solid each on its own, such as walls; what is filled comes from them alone.
+    """
+    segments, face = cut_segments(geometry.vertices, geometry.faces, z_m)
     snapped = np.round(segments / _SNAP_M) * _SNAP_M
-    snapped = snapped[np.any(snapped[:, 0] != snapped[:, 1], axis=1)]
-    ends = np.sort(snapped.view([("x", float), ("y", float)])[..., 0], axis=1)
-    unique = np.unique(ends, axis=0).view(float).reshape(-1, 2, 2)
-    merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(shapely.linestrings(unique))))
-    lines = shapely.simplify(merged, _SNAP_M)
+    long = np.any(snapped[:, 0] != snapped[:, 1], axis=1)
+    snapped, face = snapped[long], face[long]
+    if len(snapped) == 0:
+        return Section(z_m=z_m, lines=(), solids=())
+    lines = shapely.simplify(_merged(snapped), _SNAP_M)
     return Section(
         z_m=z_m,
         lines=tuple(np.asarray(shapely.get_coordinates(line)) for line in lines),
-        solids=_solids(merged),
+        solids=_solids(snapped, face, parts),
     )
 
 
-def cut_segments(vertices: NDArray[np.float64], faces: NDArray[np.int32], z_m: float) -> NDArray[np.float64]:
-    """Returns the (s, 2, 2) segments in which triangles cross the plane z = `z_m` [m].
+def cut_segments(
+    vertices: NDArray[np.float64], faces: NDArray[np.int32], z_m: float
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Returns the (s, 2, 2) segments in which triangles cross the plane z = `z_m` [m], and the triangle of each (s,).
 
     A corner in the plane counts as above it, so a triangle is cut in none or in two of its edges.
     """
@@ -62,21 +70,34 @@ def cut_segments(vertices: NDArray[np.float64], faces: NDArray[np.int32], z_m: f
         other = triangles[rows, (alone + turn) % 3]
         share = (z_m - tip[:, 2]) / (other[:, 2] - tip[:, 2])
         ends.append(tip[:, :2] + share[:, None] * (other - tip)[:, :2])
-    return np.stack(ends, axis=1) if len(rows) else np.zeros((0, 2, 2))
+    return np.stack(ends, axis=1), np.flatnonzero(crossing)
 
 
-def _solids(merged: NDArray[np.object_]) -> tuple[shapely.Polygon, ...]:
-    closed = merged[shapely.is_closed(merged) & (shapely.get_num_points(merged) > 3)]
-    if len(closed) == 0:
-        return ()
-    rings = [shapely.Polygon(shapely.get_coordinates(line)) for line in closed]
-    areas = shapely.get_parts(shapely.make_valid(rings))
-    areas = areas[shapely.get_type_id(areas) == shapely.GeometryType.POLYGON]
-    thin = shapely.is_empty(shapely.buffer(areas, -_MAX_SOLID_M / 2, join_style="mitre"))
-    # A wide ring with another wide ring just inside is a wall around a room: what lies between them is solid.
-    wide = areas[~thin]
-    between = shapely.symmetric_difference_all(wide) if len(wide) else shapely.Polygon()
-    walls = shapely.get_parts(between)
-    walls = walls[shapely.is_empty(shapely.buffer(walls, -_MAX_SOLID_M / 2, join_style="mitre"))]
-    union = shapely.get_parts(shapely.union_all(np.concatenate([areas[thin], walls])))
-    return tuple(part for part in union if isinstance(part, shapely.Polygon) and part.area > 0.0)
+def _merged(segments: NDArray[np.float64]) -> NDArray[np.object_]:
+    """Returns the segments chained to lines, each drawn once."""
+    # Every segment with its smaller end first, so that the two sides of a shared edge are found to be one.
+    swap = (segments[:, 0, 0] > segments[:, 1, 0]) | (
+        (segments[:, 0, 0] == segments[:, 1, 0]) & (segments[:, 0, 1] > segments[:, 1, 1])
+    )
+    ordered = np.where(swap[:, None, None], segments[:, ::-1], segments)
+    unique = np.unique(ordered.reshape(-1, 4), axis=0).reshape(-1, 2, 2)
+    return np.asarray(shapely.get_parts(shapely.line_merge(shapely.multilinestrings(shapely.linestrings(unique)))))
+
+
+def _solids(
+    segments: NDArray[np.float64], face: NDArray[np.int64], parts: Sequence[Part]
+) -> tuple[shapely.Polygon, ...]:
+    """Returns what the outlines of each part enclose, where it is so thin that it is no room."""
+    found = []
+    for part in parts:
+        mine = (face >= part.first_face) & (face < part.first_face + part.n_faces)
+        if mine.any():
+            # Noded first: outlines may touch and cross, and only pieces between crossings enclose areas.
+            areas = shapely.get_parts(shapely.polygonize([shapely.unary_union(_merged(segments[mine]))]))
+            found.append(areas[_thin(areas) | (shapely.area(areas) <= _MAX_COLUMN_M2)])
+    union = shapely.get_parts(shapely.union_all(np.concatenate(found))) if found else []
+    return tuple(area for area in union if isinstance(area, shapely.Polygon))
+
+
+def _thin(areas: NDArray[np.object_]) -> NDArray[np.bool_]:
+    return np.asarray(shapely.is_empty(shapely.buffer(areas, -_MAX_SOLID_M / 2, join_style="mitre")))

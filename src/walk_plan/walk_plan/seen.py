@@ -22,6 +22,7 @@ ROOM_HEIGHT_M = 2.5
 """Free space counts up to this height above a floor that can be walked on."""
 
 _AT_ONCE = 8  # viewpoints a batch: few enough that what an early batch saw spares the later ones many rays
+_ASKED = 40  # voxels looked at for each one wanted, before a smaller sample is put up with
 _SHORT_M = 1e-6  # rays stop this far before their target
 
 
@@ -31,18 +32,24 @@ def sample_free_space(building: Building, importance_map: ImportanceMap, seed: i
     A voxel counts if the nearest reachable place is no farther to the side than the body and a cell, and below
     it by no more than a room's height. Space that belongs to what cannot be reached is nobody's to show.
     """
-    generator = np.random.default_rng(seed)
-    free = np.argwhere(importance_map.obstacle == 0.0)
-    # Shuffled once; most voxels of a building stand outside, so the sample is taken from the front of the rest.
-    grid = importance_map.grid
-    centres = grid.origin + (generator.permutation(free)[: 40 * SAMPLES] + 0.5) * grid.voxel_size_m
-    if len(centres) == 0 or not building.reachable.any():
-        return np.zeros((0, 3))
-    floor = centres - [0.0, 0.0, ROOM_HEIGHT_M / 2]
-    place = building.surface.places[building.surface.nearest(floor, building.reachable)]
-    offset = centres - place
+    free = np.random.default_rng(seed).permutation(np.flatnonzero(importance_map.obstacle.ravel() == 0.0))
+    found: list[NDArray[np.float64]] = [np.zeros((0, 3))]
+    # In handfuls, because most voxels stand outside and the nearest place costs time.
+    for begin in range(0, min(len(free), _ASKED * SAMPLES), SAMPLES):
+        voxels = np.column_stack(np.unravel_index(free[begin : begin + SAMPLES], importance_map.grid.shape))
+        centres = importance_map.grid.centres(voxels)
+        found.append(centres[_over_reachable_floor(building, centres)])
+        if sum(map(len, found)) >= SAMPLES:
+            break
+    return np.vstack(found)[:SAMPLES]
+
+
+def _over_reachable_floor(building: Building, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    place = building.surface.nearest(points - [0.0, 0.0, ROOM_HEIGHT_M / 2])
+    offset = points - building.surface.places[place]
     aside = np.hypot(offset[:, 0], offset[:, 1]) <= building.walker.radius_m + building.surface.cell_m
-    return np.asarray(centres[aside & (offset[:, 2] >= 0.0) & (offset[:, 2] <= ROOM_HEIGHT_M)][:SAMPLES])
+    within = (offset[:, 2] >= 0.0) & (offset[:, 2] <= ROOM_HEIGHT_M)
+    return np.asarray(building.reachable[place] & aside & within)
 
 
 def seen_share(geometry: Geometry, eye_path: NDArray[np.float64], targets: NDArray[np.float64]) -> float:

@@ -12,27 +12,29 @@ from scipy.ndimage import distance_transform_edt, zoom
 
 from walk_building.building import Building
 from walk_plan.drawing import style
-from walk_plan.section import cut
 
-_MARGIN_M = 0.8
+_MARGIN_M = 1.2  # the body's radius, a wall and some paper
 _FINER = 2  # a pixel of the tint is this much smaller than a cell of the surface
 
 
 def storey_bounds(building: Building, storey: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Returns the lower left and the upper right corner of what a storey's plan shows, (2,) each [m]."""
-    section = cut(building.geometry, building.storeys[storey].elevation_m + 1.2)
-    here = building.surface.places[building.surface.storey == storey, :2]
-    shown = np.vstack([here, *section.lines]) if len(here) or section.lines else building.geometry.bounds[:, :2]
-    return shown.min(axis=0) - _MARGIN_M, shown.max(axis=0) + _MARGIN_M
+    surface = building.surface
+    inside = surface.places[(surface.storey == storey) & (surface.indoor | building.reachable), :2]
+    if len(inside) == 0:
+        inside = building.geometry.bounds[:, :2]
+    return inside.min(axis=0) - _MARGIN_M, inside.max(axis=0) + _MARGIN_M
 
 
 def tinted_floor(axes: Axes, building: Building, storey: int) -> None:
-    """Draws where one can stand, room by room, widened to the walls."""
+    """Draws where one can stand, room by room, widened to the walls; what cannot be reached is grey."""
     surface = building.surface
     nx, ny = surface.columns.shape
     room = np.full(nx * ny, -2)
     here = (surface.storey == storey) & (surface.indoor | building.reachable)
-    room[surface.columns.flat_of(surface.places[here, :2])] = surface.room[here]
+    # Only what can be reached has a colour of its own.
+    shown = np.where(building.reachable[here], surface.room[here], -1)
+    room[surface.columns.flat_of(surface.places[here, :2])] = shown
     if not (room > -2).any():
         return
     labels = zoom(room.reshape(nx, ny), _FINER, order=0, grid_mode=True, mode="nearest")

@@ -48,29 +48,25 @@ class LabelBoard:
         size: tuple[float, float],
         avoid: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64] | None:
-        """Takes the first free box around one of the candidates, or the one that covers least of `avoid`.
+        """Takes the first free box around one of the candidates.
 
         Args:
             candidates: (n, 2) centres of the box, best first [pixels].
             size: Width and height of the box [pixels].
-            avoid: (k, 2) pixels that are better not covered, such as a drawn path.
+            avoid: (k, 2) pixels that it must not cover, such as a drawn path.
 
         Returns:
             The centre (2,) [pixels]; None where every candidate is taken.
         """
-        best, best_cost = None, np.inf
         half = np.array(size) / 2
-        for rank, centre in enumerate(candidates):
-            if self._taken(centre, half):
+        frame = self.axes.bbox.extents
+        for centre in candidates:
+            if np.any(centre - half < frame[:2]) or np.any(centre + half > frame[2:]) or self._taken(centre, half):
                 continue
-            covered = 0 if avoid is None else int(np.all(np.abs(avoid - centre) < half, axis=1).sum())
-            if covered + 0.02 * rank < best_cost:
-                best, best_cost = centre, covered + 0.02 * rank
-            if covered == 0:
-                break
-        if best is not None:
-            self.take(best, size)
-        return best
+            if avoid is None or not np.all(np.abs(avoid - centre) < half, axis=1).any():
+                self.take(centre, size)
+                return np.asarray(centre)
+        return None
 
     def take(self, centre: NDArray[np.float64], size: tuple[float, float]) -> None:
         """Marks a box as taken."""

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import matplotlib.patheffects as effects
 import numpy as np
 from numpy.typing import NDArray
@@ -67,44 +69,53 @@ def label_passages(
 
 
 def label_rooms(board: LabelBoard, building: Building, storey: int, drawn: NDArray[np.float64]) -> None:
-    """Writes each room's name where it covers the least; what fits nowhere in small type is left to the table.
+    """Writes each room's name where it covers nothing; what fits nowhere in small type is left to the table.
 
     Args:
         board: Where boxes are taken already.
         building: With the rooms.
         storey: Which ones.
-        drawn: (k, 2) points of the drawn path, which names should not cover [m].
+        drawn: (k, 2) points of walls and of the path, which names should not cover [m].
     """
-    avoid = board.to_pixels(drawn) if len(drawn) else None
+    avoid = board.to_pixels(drawn) if len(drawn) else np.zeros((0, 2))
+    level = building.storeys[storey].name
     rooms = [room for room in building.rooms if room.storey == storey and len(room.places)]
-    for room in sorted(rooms, key=lambda room: -room.area_m2):
-        candidates = board.to_pixels(_roomiest(building, room.places)[:, :2])
-        for size_pt in _ROOM_SIZES_PT:
-            for text in _wordings(room.name, room.area_m2):
-                width, height = board.text_size(text, size_pt)
-                found = board.place(candidates, (width + 3, height), avoid)
-                if found is not None:
-                    break
+    for room in sorted(rooms, key=lambda room: (not room.reachable, -room.area_m2)):
+        centres = board.to_pixels(_roomiest(building, room.places)[:, :2])
+        for size_pt, text in itertools.product(_ROOM_SIZES_PT, _wordings(short_name(room.name, level), room.area_m2)):
+            width, height = board.text_size(text, size_pt)
+            found = board.place(centres, (width + 2, height), avoid)
             if found is not None:
-                colour = style.INK if room.reachable else style.FAINT
-                board.axes.annotate(
-                    text, board.to_map(found[None, :])[0], ha="center", va="center", fontsize=size_pt, color=colour,
-                    linespacing=1.1, path_effects=_HALO, zorder=6.5,
-                )  # fmt: skip
+                _write_room(board, found, text, size_pt, style.INK if room.reachable else style.FAINT)
                 break
+
+
+def short_name(name: str, storey: str) -> str:
+    """Returns a room's name without its storey's, which the plan's title tells."""
+    rest = name.removeprefix(f"{storey}, ")
+    return rest[:1].upper() + rest[1:] if rest != name else name
+
+
+def _write_room(board: LabelBoard, at: NDArray[np.float64], text: str, size_pt: float, colour: str) -> None:
+    board.axes.annotate(
+        text, board.to_map(at[None, :])[0], ha="center", va="center", fontsize=size_pt, color=colour,
+        linespacing=1.1, path_effects=_HALO, zorder=6.5,
+    )  # fmt: skip
 
 
 def _wordings(name: str, area_m2: float) -> tuple[str, ...]:
     area = f"{area_m2:.0f} m²" if area_m2 >= 10 else f"{area_m2:.1f} m²"
     words = name.split()
-    broken = "\n".join([" ".join(words[: len(words) // 2]), " ".join(words[len(words) // 2 :])])
+    half = (len(words) + 1) // 2
+    broken = "\n".join([" ".join(words[:half]), " ".join(words[half:])])
     return (f"{name}\n{area}", name, broken) if len(words) > 1 else (f"{name}\n{area}", name)
 
 
-def _roomiest(building: Building, places: NDArray[np.int64], count: int = 60) -> NDArray[np.float64]:
+def _roomiest(building: Building, places: NDArray[np.int64], count: int = 80) -> NDArray[np.float64]:
     """Returns places of a room that are far from its edge and from each other, best first, (n, 3) [m]."""
-    order = places[np.argsort(-building.surface.clearance_m[places], kind="stable")]
+    some = places[:: max(len(places) // 20_000, 1)]
+    order = some[np.argsort(-building.surface.clearance_m[some], kind="stable")]
     positions = building.surface.places[order]
-    cells = np.round(positions[:, :2] / 0.4)
+    cells = np.round(positions[:, :2] / 0.3)
     first = np.sort(np.unique(cells, axis=0, return_index=True)[1])
     return np.asarray(positions[first[:count]])

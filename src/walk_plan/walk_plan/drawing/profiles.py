@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from walk_plan.clearance import LIMIT_M
 from walk_plan.drawing import style
 from walk_plan.profile import Profile
 from walk_plan.walkthrough import Walkthrough
@@ -35,7 +36,7 @@ def draw_profiles(walkthrough: Walkthrough) -> Figure:
     tall = walker.eye_height_m
     top = max(tall + 0.3, float(np.nanmax(profile.height_m, initial=tall)) + 0.1)
     _curve(axes[1], profile, profile.height_m, "Eye above\nthe floor [m]", (max(tall - 0.5, 0.0), min(top, tall + 1.0)), tall)
-    _curve(axes[2], profile, np.minimum(profile.clearance_m, 2.0), "Space beside\nthe body [m]", (0.0, 2.0))
+    _curve(axes[2], profile, profile.clearance_m, "Space beside\nthe body [m]", (0.0, LIMIT_M))
     _curve(axes[3], profile, profile.speed_mps, "Speed [m/s]", (0.0, 1.15 * max(profile.speed_mps.max(), 0.1)), config.timing.speed_mps)
     turn = np.degrees(profile.turn_rate_radps)
     limit = float(np.degrees(config.timing.max_turn_rate_radps))

@@ -15,13 +15,14 @@ from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
 INK = "#1f2933"  # text and cut walls
+SOLID_INK = "#56606b"  # inside of cut walls
 FAINT = "#6b7580"  # notes, axes
 HAIR = "#c3cad1"  # furniture, grids
 PLANNED = "#8a4f9e"  # the planned tour
 MARK = "#ffffff"  # inside of a keypoint's circle
 START, END = "#00795c", "#b3243b"
 ROOM_TINTS = ("#e6eef6", "#f6efdf", "#e7f1e6", "#f4e8ea", "#ebe9f4", "#e3f0f0", "#f3ecd9", "#eceff1")
-OPEN_FLOOR = "#f1f3f5"
+OPEN_FLOOR = "#e9ebee"
 
 # Vermillion to blue of Okabe and Ito's palette: apart in hue and in lightness for every kind of colour vision.
 CLEARANCE = LinearSegmentedColormap.from_list("clearance", ["#d55e00", "#e8963c", "#56a0d3", "#0a3d7a"])
