@@ -58,6 +58,10 @@ class TourLike(Protocol):
         """(K, K) walkable lengths, inf where there is no way."""
 
     @property
+    def stands(self) -> NDArray[np.float64]:
+        """(K, 3) where the walker's eye is at each keypoint, nan where it cannot stand."""
+
+    @property
     def polyline(self) -> NDArray[np.float64]:
         """(L, 3) eye positions."""
 
@@ -94,7 +98,7 @@ def tour_messages(
 
     Args:
         tour: Through the keypoints below.
-        positions: (K, 3) eye positions, in the keypoints' own order.
+        positions: (K, 3) where the keypoints are wished, in their own order; what is told is where the walker stands.
         quat_xyzw: (K, 4) view directions.
         ids: (K,) stable identities.
         labels: (K,) what a viewer writes beside them.
@@ -111,8 +115,9 @@ def tour_messages(
         ]
     order = [int(i) for i in tour.order]
     left_out = {int(u.index): u.reason for u in tour.unreachable}
+    eyes = tour.stands[order]
     markers = keypoint_markers_to_msg(
-        positions[order],
+        eyes,
         quat_xyzw[order],
         [ids[i] for i in order],
         [labels[i] for i in order],
@@ -121,7 +126,7 @@ def tour_messages(
         removed=removed,
     )
     return [
-        ("keypoints", keypoints_to_msg(positions[order], quat_xyzw[order], stamp_ns)),
+        ("keypoints", keypoints_to_msg(eyes, quat_xyzw[order], stamp_ns)),
         ("keypoint_markers", markers),
         ("pairwise_paths", pairwise_paths_to_msg(tour.pairs, ids, stamp_ns, _no_way(tour, left_out))),
         ("tour", tour_to_msg(tour.polyline, stamp_ns)),
