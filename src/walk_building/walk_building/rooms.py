@@ -65,8 +65,8 @@ def find_rooms(
         if storey is None:
             base = np.array([declared.vertices[:, 2].min()])
             storey = int(storey_of(storeys, base)[0])
-        room[members] = len(rooms)
         found = _room(declared.label, storey, members, declared.vertices.mean(axis=0), floor)
+        room[found.places] = len(rooms)
         rooms.append(dataclasses.replace(found, reason=_OUTDOORS) if under_the_sky else found)
 
     left = indoor & (space < 0) & _without_spaces(model, storeys, places[:, 2])
@@ -124,28 +124,31 @@ def _found_rooms(label: NDArray[np.int32], floor: _Floor) -> list[Room]:
 
 
 def _room(name: str, storey: int, members: NDArray[np.int64], middle: NDArray[np.float64], floor: _Floor) -> Room:
+    """A room of the given places, less the tops of its furniture: what is cut off from its largest part."""
     reached = members[floor.reachable[members]]
-    best = reached if len(reached) else members
+    best = reached
+    if len(reached) == 0 and len(members) > 0:
+        part = floor.component[members]
+        best = members[part == np.bincount(part).argmax()]
     centre = floor.places[best[np.argmax(floor.clearance_m[best])]] if len(best) else middle
     return Room(
         name=name,
         storey=storey,
-        area_m2=len(members) * floor.place_area_m2,
+        area_m2=len(best) * floor.place_area_m2,
         centre=centre,
-        places=members,
+        places=best,
         reachable=len(reached) > 0,
-        reason="" if len(reached) else _reason(members, floor),
+        reason="" if len(reached) else _reason(best, floor),
     )
 
 
 def _reason(members: NDArray[np.int64], floor: _Floor) -> str:
-    """Why a room without a reachable place has none."""
+    """Why a room without a reachable place has none; its places are of one part."""
     if len(members) == 0:
         return "nowhere in it is there room for the walker to stand"
-    part = np.bincount(floor.component[members]).argmax()
-    area = float((floor.component == part).sum()) * floor.place_area_m2
-    z = floor.places[floor.component == part, 2]
+    part = floor.component == floor.component[members[0]]
+    z = floor.places[part, 2]
     return (
-        f"no way on foot leads there from where the tour starts: it lies in a separate part of {area:.0f} m² "
-        f"at heights {z.min():.1f} to {z.max():.1f} m"
+        f"no way on foot leads there from where the tour starts: it lies in a separate part of "
+        f"{part.sum() * floor.place_area_m2:.0f} m² at heights {z.min():.1f} to {z.max():.1f} m"
     )

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -13,6 +14,7 @@ import numpy as np
 
 from walk_building.errors import BuildingError
 from walk_building.loaders.ifc_header import read_step
+from walk_building.loaders.ifc_probe import check_survives
 from walk_building.loaders.raw import PartFilter, RawMesh, RawModel
 from walk_building.model import LoadOptions
 from walk_building.progress import Progress
@@ -40,14 +42,41 @@ def load_ifc(path: Path, options: LoadOptions, part_filter: PartFilter, progress
     Raises:
         BuildingError: The file is not IFC, is cut short, or is of a schema the engine does not know.
     """
+    text = _text(path)
+    try:
+        file, dangling = _parse(text)
+        if dangling:
+            check_survives(path)
+        raw = _content(file, options, part_filter, progress)
+    except BuildingError:
+        raise
+    except Exception as error:  # the engine's errors share no base, and in a damaged file any attribute may be any type
+        raise BuildingError(path, f"is damaged and cannot be read as IFC ({error})") from error
+    if dangling:
+        raw = dataclasses.replace(raw, warnings=(*raw.warnings, "The file names instances that are not in it."))
+    return raw
+
+
+def tessellates(path: str) -> bool:
+    """Says that the engine got through all products of the file; what it crashes on, never returns."""
+    file, _ = _parse(_text(Path(path)))
+    return all(True for _ in _shapes(file, list(_with_shape(file, LoadOptions()))))
+
+
+def _text(path: Path) -> str:
     import ifcopenshell  # half a second of imports that a mesh file does not need
 
     known = {str(name).upper() for name in ifcopenshell.ifcopenshell_wrapper.schema_names()}
-    text = read_step(path, {name for name in known if name.startswith("IFC")})
-    try:
-        return _content(ifcopenshell.file.from_string(text), options, part_filter, progress)
-    except Exception as error:  # the engine's errors share no base, and in a damaged file any attribute may be any type
-        raise BuildingError(path, f"is damaged and cannot be read as IFC ({error})") from error
+    return read_step(path, {name for name in known if name.startswith("IFC")})
+
+
+def _parse(text: str) -> tuple[Any, bool]:
+    """Returns the file, and whether instances refer to others that are not there."""
+    import ifcopenshell
+
+    ifcopenshell.get_log()  # reading the log empties it
+    file = ifcopenshell.file.from_string(text)
+    return file, "Instance reference" in ifcopenshell.get_log()
 
 
 def _content(file: Any, options: LoadOptions, part_filter: PartFilter, progress: Progress) -> RawModel:

@@ -24,7 +24,7 @@ from walk_building.model import LoadOptions
 from walk_building.progress import Progress
 
 # Materials are never used: a missing texture must not matter.
-_SETTINGS: dict[str, dict[str, bool]] = {
+_SETTINGS: dict[str, dict[str, Any]] = {
     ".glb": {"skip_materials": True},
     ".gltf": {"skip_materials": True},
     ".obj": {"skip_materials": True, "split_objects": True, "split_groups": True, "group_material": False},
