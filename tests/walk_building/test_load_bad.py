@@ -250,3 +250,16 @@ def test_damaged_ifc_never_ends_the_process(tmp_path: Path) -> None:
     )
     assert done.stdout.strip() == "survived", done.stderr[-2000:]
     assert done.returncode == 0
+
+
+def test_engine_that_crashes_on_a_damaged_file_is_survived(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "damaged.ifc"
+    path.write_text(
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
+        "FILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n#1=IFCWALL('0E8e5g8qb0kg3Ff9f2HM1S',$,'wall',$,$,#7,#8,$,$);\n"
+        "ENDSEC;\nEND-ISO-10303-21;\n"
+    )
+    monkeypatch.setattr("walk_building.loaders.ifc_probe._CHILD", "import os; os.abort()")
+    assert "names instances that are not there" in refusal(path)
+    monkeypatch.setattr("walk_building.loaders.ifc_probe._CHILD", "pass")
+    assert "not in it" in refusal(path)  # survived, and then there is nothing to walk on
