@@ -16,6 +16,7 @@ from walk_importance.importance_map import ImportanceMap
 
 # The cone reaches this far up and down: over the steps of a stair, but not through a floor.
 STOREY_REACH_M = 1.5
+ROOM_AROUND_M = 0.4  # a keypoint has this far to where standing ends, or half of the most its room offers
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +46,7 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
     places = np.flatnonzero(building.reachable)
     if len(places) == 0:
         raise NoPlaceError
+    places = places[_roomy(surface.clearance_m[places], surface.room[places])]
     eyes = building.eyes(places)
     shape = importance_map.grid.shape
     voxel = np.ravel_multi_index(tuple(importance_map.grid.indices(eyes).T), shape)
@@ -59,6 +61,13 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
         score=importance_map.at(eyes[best]).astype(np.float64),
         room=surface.room[places[best]].astype(np.int64),
     )
+
+
+def _roomy(clearance_m: NDArray[np.float64], room: NDArray[np.int32]) -> NDArray[np.bool_]:
+    """Leaves out the nooks between furniture: places with less around than a room has to offer elsewhere."""
+    widest = np.zeros(room.max() + 2)
+    np.maximum.at(widest, room, clearance_m)  # -1, no room, is the last
+    return np.asarray(clearance_m >= np.minimum(ROOM_AROUND_M, 0.5 * widest[room]))
 
 
 @numba.njit(cache=True, nogil=True)

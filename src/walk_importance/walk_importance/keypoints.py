@@ -51,7 +51,10 @@ class Suggestion:
 
 
 def suggest_keypoints(
-    building: Building, importance_map: ImportanceMap, config: KeypointConfig | None = None
+    building: Building,
+    importance_map: ImportanceMap,
+    config: KeypointConfig | None = None,
+    candidates: Candidates | None = None,
 ) -> Suggestion:
     """Chooses keypoints: first one for every reachable room, then more by cone suppression.
 
@@ -59,12 +62,19 @@ def suggest_keypoints(
     goes to the most important places anywhere. With count 0 each room gets keypoints, always the most important
     place among those not seen yet, until `room_coverage` of its floor is seen.
 
+    Args:
+        building: The building.
+        importance_map: Its maps.
+        config: How many, and their cones.
+        candidates: Of the same building and map, from `find_candidates`, to choose again from them with another
+            config at once.
+
     Raises:
         NoPlaceError: There is no place the walker can reach.
         TooManyKeypointsError: `count` is more than fit a body's width apart.
     """
     config = config or KeypointConfig()
-    candidates = find_candidates(building, importance_map)
+    candidates = candidates or find_candidates(building, importance_map)
     choice = _Choice(building, candidates, config)
     rooms = _rooms_by_importance(building, candidates)
     for room in rooms[: config.count or None]:
@@ -176,7 +186,11 @@ def _suggestion(
 
 
 def snap_keypoint(
-    building: Building, importance_map: ImportanceMap, near: NDArray[np.float64], config: KeypointConfig | None = None
+    building: Building,
+    importance_map: ImportanceMap,
+    near: NDArray[np.float64],
+    config: KeypointConfig | None = None,
+    candidates: Candidates | None = None,
 ) -> Suggestion:
     """Returns the one keypoint to take where the user asks for one "near here".
 
@@ -188,12 +202,13 @@ def snap_keypoint(
         importance_map: Its maps.
         near: (3,) eye position [m].
         config: `snap_radius_m` and `cone_depth` are used.
+        candidates: Of the same building and map, from `find_candidates`.
 
     Raises:
         NoPlaceError: There is no place the walker can reach.
     """
     config = config or KeypointConfig()
-    candidates = find_candidates(building, importance_map)
+    candidates = candidates or find_candidates(building, importance_map)
     distance = np.linalg.norm(candidates.eyes - np.asarray(near, dtype=np.float64), axis=1)
     worth = candidates.score - config.cone_depth * distance / config.snap_radius_m
     within = distance <= config.snap_radius_m

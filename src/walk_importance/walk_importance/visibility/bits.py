@@ -10,6 +10,7 @@ the line meets after that no longer matters.
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +21,8 @@ class BitLayout:
     """Where each voxel of a grid lies in the string of bits.
 
     Attributes:
-        order: The grid's axes from the fastest to the slowest; the longest is the slowest, because a displacement
-            along the slowest axis shortens the part of the string that has to be looked at.
+        order: The grid's axes from the fastest to the slowest: the shortest is the slowest, so that a layer of the
+            two others is a long stretch of the string, of which a displacement along the second leaves one piece.
         shape: (3,) voxels along those axes.
         strides: (3,) bits from voxel to voxel along those axes.
         front: Bits before voxel 0, a multiple of 64, more than any line steps back.
@@ -37,7 +38,7 @@ class BitLayout:
     @staticmethod
     def of(shape: tuple[int, int, int]) -> BitLayout:
         """Returns the layout of a grid of `shape` (nx, ny, nz)."""
-        i, j, k = sorted(range(3), key=lambda axis: shape[axis])
+        k, i, j = sorted(range(3), key=lambda axis: shape[axis])
         nx, ny, nz = shape[i], shape[j], shape[k]
         strides = (1, nx + 1, (nx + 1) * (ny + 1))
         slab = -(-(strides[2] + nx + 2) // 64) * 64
@@ -60,7 +61,20 @@ class BitLayout:
             copies[s, :-1] |= copies[0, 1:] << (8 - s)
         return copies
 
-    def unpack(self, counts: NDArray[np.int32]) -> NDArray[np.int32]:
+    def pack_chains(self, grid: NDArray[np.bool_]) -> NDArray[np.uint8]:
+        """Returns (4, 8, B) uint8: the grid, and the grid ANDed with its neighbours along each axis, as by `pack`.
+
+        A line of sight steps from voxel to neighbour: asking for two at once halves the work.
+        """
+        chains = [self.pack(grid)]
+        for axis in self.order:
+            both = np.zeros_like(grid)
+            here, there = np.moveaxis(grid, axis, 0)[:-1], np.moveaxis(grid, axis, 0)[1:]
+            np.moveaxis(both, axis, 0)[:-1] = here & there
+            chains.append(self.pack(both))
+        return np.stack(chains)
+
+    def unpack(self, counts: NDArray[Any]) -> NDArray[Any]:
         """Returns the numbers of (64 words,) bits as a grid (nx, ny, nz)."""
         nx, ny, nz = self.shape
         padded = counts[: nz * self.strides[2]].reshape(nz, ny + 1, nx + 1)

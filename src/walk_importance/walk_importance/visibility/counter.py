@@ -29,7 +29,7 @@ class PairCounter:
 
     def __init__(self, scene: Scene) -> None:
         self.layout = BitLayout.of(scene.grid.shape)
-        self._bits = self.layout.pack(scene.free)
+        self._chains = self.layout.pack_chains(scene.free)
         none = np.zeros((8, 0), np.uint8)
         whole = scene.targets is scene.free
         self._targets = none if whole else self.layout.pack(scene.targets)
@@ -47,29 +47,26 @@ class PairCounter:
         """Returns an empty count of every bit of the layout."""
         return np.zeros(64 * self.layout.words, np.int32)
 
-    def add(self, displacements: NDArray[np.int64], counts: NDArray[np.int32]) -> int:
-        """Adds to `counts`, at both ends, the pairs that see each other along `displacements` (D, 3).
-
-        Returns:
-            The number of those pairs.
-        """
+    def add(self, displacements: NDArray[np.int64], counts: NDArray[np.int32]) -> None:
+        """Adds to `counts`, at both ends, the pairs that see each other along `displacements` (D, 3)."""
         # A few chunks for each thread even out their load; a chunk may not overrun the counters.
         size = int(np.clip(len(displacements) // (3 * self.threads) + 1, 64, CAPACITY))
         chunks = [displacements[i : i + size] for i in range(0, len(displacements), size)]
         if len(chunks) <= 1 or self.threads == 1:
-            return sum(self._sweep(chunk, counts) for chunk in chunks)
+            for chunk in chunks:
+                self._sweep(chunk, counts)
+            return
         with ThreadPoolExecutor(self.threads) as pool:
-            return sum(pool.map(lambda chunk: self._sweep(chunk, counts), chunks))
+            list(pool.map(lambda chunk: self._sweep(chunk, counts), chunks))
 
-    def _sweep(self, chunk: NDArray[np.int64], counts: NDArray[np.int32]) -> int:
+    def _sweep(self, chunk: NDArray[np.int64], counts: NDArray[np.int32]) -> None:
         results, planes = self._scratch.get()
         try:
             layout = self.layout
             strides, reach = np.array(layout.strides), np.array(layout.shape)
             args = (strides, layout.front, layout.words, reach, results, planes)
-            seen = sweep(chunk, self._bits, self._targets, self._sources, *args)
+            sweep(chunk, self._chains, self._targets, self._sources, *args)
             with self._lock:
                 flush(planes, counts)
         finally:
             self._scratch.put((results, planes))
-        return int(seen)

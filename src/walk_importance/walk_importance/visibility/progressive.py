@@ -37,7 +37,7 @@ def progressive_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEs
             counter.add(shell.draw(wanted - shell.drawn), count)
         seen, variance, pull = _combine(parts, counts, inside)
         drawn = sum(shell.drawn for shell in parts)
-        yield estimate(scene, _unpack(counter, seen), variance, drawn / max(total, 1), pairs * drawn / max(total, 1))
+        yield estimate(scene, counter.layout.unpack(seen), variance, drawn / max(total, 1), pairs * drawn / max(total, 1))
         if drawn >= total:
             return
         budget = 2 * drawn
@@ -86,6 +86,3 @@ def _flat_mask(scene: Scene, counter: PairCounter) -> NDArray[np.bool_]:
     flat = np.unpackbits(bits[first : first + 8 * counter.layout.words], bitorder="little")
     return flat.astype(bool)
 
-
-def _unpack(counter: PairCounter, seen: NDArray[np.float32]) -> NDArray[np.float32]:
-    return counter.layout.unpack(seen)

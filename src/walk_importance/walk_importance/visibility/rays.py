@@ -44,7 +44,7 @@ def voxel_ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEsti
 
 def count_voxel_rays(scene: Scene, sources: NDArray[np.int64]) -> NDArray[np.int64]:
     """Returns the number of other target voxels that each of `sources` (N, 3) sees, by scalar voxel walks."""
-    return in_chunks(_voxel_rays, len(sources), scene.free, sources, np.argwhere(scene.targets))
+    return in_chunks(_voxel_rays, len(sources), np.ascontiguousarray(scene.free), sources, np.argwhere(scene.targets))
 
 
 def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> NDArray[np.int64]:
@@ -78,50 +78,67 @@ def _triangle_rays(begin, end, bvh, start, goal, seen):
 
 @numba.njit(cache=True, nogil=True)
 def _voxel_rays(begin, end, free, sources, targets, seen):
+    flat = free.reshape(-1)
+    stride_y = free.shape[2]
+    stride_x = free.shape[1] * stride_y
     for i in range(begin, end):
+        x, y, z = sources[i]
+        at = x * stride_x + y * stride_y + z
         n = -1  # itself
         for j in range(len(targets)):
-            n += voxel_ray(free, sources[i, 0], sources[i, 1], sources[i, 2], targets[j])
+            n += _voxel_ray(flat, at, targets[j, 0] - x, targets[j, 1] - y, targets[j, 2] - z, stride_x, stride_y)
         seen[i] = n
 
 
 @numba.njit(cache=True, nogil=True)
-def voxel_ray(free, x, y, z, goal):
-    """Whether all voxels that the segment from (x, y, z) to `goal` touches are free; 0 or 1."""
-    ax, ay, az = abs(goal[0] - x), abs(goal[1] - y), abs(goal[2] - z)
-    sx = 1 if goal[0] > x else -1
-    sy = 1 if goal[1] > y else -1
-    sz = 1 if goal[2] > z else -1
+def _voxel_ray(flat, at, dx, dy, dz, stride_x, stride_y):
+    """Whether all voxels that the segment from voxel `at` by (dx, dy, dz) touches are free; 0 or 1."""
+    ax, ay, az = abs(dx), abs(dy), abs(dz)
+    jx = stride_x if dx > 0 else -stride_x
+    jy = stride_y if dy > 0 else -stride_y
+    jz = 1 if dz > 0 else -1
     # Time runs in units of 1 / (2 ax ay az), zeros taken as one: the next crossing and the time between two.
     px, py, pz = max(ax, 1), max(ay, 1), max(az, 1)
-    never = np.int64(1) << 60
-    tx, wx = (py * pz, 2 * py * pz) if ax else (never, 0)
-    ty, wy = (px * pz, 2 * px * pz) if ay else (never, 0)
-    tz, wz = (px * py, 2 * px * py) if az else (never, 0)
     stop = 2 * px * py * pz
+    tx, wx = (py * pz, 2 * py * pz) if ax else (stop + 1, 0)
+    ty, wy = (px * pz, 2 * px * pz) if ay else (stop + 1, 0)
+    tz, wz = (px * py, 2 * px * py) if az else (stop + 1, 0)
     while True:
-        t = min(tx, ty, tz)
-        if t > stop:
-            return 1
-        mx, my, mz = tx == t, ty == t, tz == t
-        if mx + my + mz > 1:
-            if mx and my and not (free[x + sx, y, z] and free[x, y + sy, z]):
-                return 0
-            if mx and mz and not (free[x + sx, y, z] and free[x, y, z + sz]):
-                return 0
-            if my and mz and not (free[x, y + sy, z] and free[x, y, z + sz]):
-                return 0
-            if mx and my and mz:
-                if not (free[x + sx, y + sy, z] and free[x + sx, y, z + sz] and free[x, y + sy, z + sz]):
-                    return 0
-        if mx:
-            x += sx
+        if tx < ty and tx < tz:
+            if tx > stop:
+                return 1
+            at += jx
             tx += wx
-        if my:
-            y += sy
+        elif ty < tx and ty < tz:
+            if ty > stop:
+                return 1
+            at += jy
             ty += wy
-        if mz:
-            z += sz
+        elif tz < tx and tz < ty:
+            if tz > stop:
+                return 1
+            at += jz
             tz += wz
-        if not free[x, y, z]:
+        else:
+            t = min(tx, ty, tz)
+            if t > stop:
+                return 1
+            mx, my, mz = jx * (tx == t), jy * (ty == t), jz * (tz == t)
+            if not _edge_free(flat, at, mx, my, mz):
+                return 0
+            at += mx + my + mz
+            tx += wx * (tx == t)
+            ty += wy * (ty == t)
+            tz += wz * (tz == t)
+        if not flat[at]:
             return 0
+
+
+@numba.njit(cache=True, nogil=True)
+def _edge_free(flat, at, mx, my, mz):
+    """Whether the voxels beside a crossing of two or three boundaries at once are free."""
+    if not ((mx == 0 or flat[at + mx]) and (my == 0 or flat[at + my]) and (mz == 0 or flat[at + mz])):
+        return False
+    if mx == 0 or my == 0 or mz == 0:
+        return True
+    return flat[at + mx + my] and flat[at + mx + mz] and flat[at + my + mz]

@@ -21,13 +21,13 @@ _BLOCK = 512  # bytes of the string worked on at a time: small enough to die out
 
 
 @numba.njit(cache=True, nogil=True)
-def sweep(displacements, bits, targets, sources, strides, front, words, reach, results, planes):
-    """Adds the pairs seen along `displacements` to the counters; returns the number of pairs seen.
+def sweep(displacements, chains, targets, sources, strides, front, words, reach, results, planes):
+    """Adds the pairs seen along `displacements` to the counters.
 
     Args:
         displacements: (D, 3) int64 along the layout's axes, first non-zero from the slowest axis on positive,
             D <= CAPACITY since the counters were cleared.
-        bits: (8, B) uint8 free voxels, see `BitLayout.pack`.
+        chains: (4, 8, B) uint8 free voxels, see `BitLayout.pack_chains`.
         targets: (8, B) uint8 voxels that both ends of a pair must be among, or (8, 0): all.
         sources: (8, B) uint8 voxels that one end of a pair must be among, or (8, 0): all.
         strides, front, words: Of the layout.
@@ -35,27 +35,34 @@ def sweep(displacements, bits, targets, sources, strides, front, words, reach, r
         results: (5, 2 words) uint64, scratch, the first half zero.
         planes: (PLANES, words) uint64 counters.
     """
-    flat = bits.reshape(-1)
-    size = bits.shape[1]
+    flat = chains.reshape(-1)
+    size = chains.shape[2]
     cells = np.empty(3 * (reach[0] + reach[1] + reach[2]) + 8, np.int64)
+    pieces = np.empty(len(cells), np.int64)
     source = np.empty(len(cells) + 8, np.int64)
     shift = np.zeros(4, np.int64)
-    last = np.zeros(4, np.int64)
-    seen = 0
     held = 0
     for i in range(len(displacements)):
         dx, dy, dz = displacements[i, 0], displacements[i, 1], displacements[i, 2]
         step = dx * strides[0] + dy * strides[1] + dz * strides[2]
-        n_bytes = 8 * ((64 * words - step + 63) // 64)
         n_cells = supercover(dx, dy, dz, strides[0], strides[1], strides[2], cells)
-        n_source = _spread(cells, n_cells, front, size, source)
+        n_pieces = _pair_up(cells, n_cells, strides, front, size, pieces)
+        n_source = _spread(pieces, n_pieces, source)
         row = results[held].view(np.uint8)[8 * words :]
-        if not _see(row, flat, source, n_source, targets, sources, front, step, n_bytes):
+        anything = False
+        done = 0
+        # Layer by layer of the slowest axis, the stretch of it whose rows stay in the grid.
+        for layer in range(reach[2] - dz):
+            first = (layer * strides[2] + max(0, -dy) * strides[1]) >> 3
+            end = ((layer * strides[2] + (reach[1] - max(0, dy)) * strides[1]) >> 3) + 1
+            first = max(first, done)
+            row[done:first] = 0
+            anything |= _see(row[first:end], flat, source[:n_source], targets, sources, front, step, first)
+            done = end
+        if not anything:
             continue
-        for j in range(n_bytes, 8 * words):
-            row[j] = 0
-        seen += _ones(results[held, words:], n_bytes // 8)
-        shift[held], last[held] = step, n_bytes // 8
+        row[done:] = 0
+        shift[held] = step
         held += 1
         if held == 4:
             _add(results, shift, words, planes)
@@ -65,14 +72,33 @@ def sweep(displacements, bits, targets, sources, strides, front, words, reach, r
             results[j, words:] = 0
             shift[j] = 0
         _add(results, shift, words, planes)
-    return seen
 
 
 @numba.njit(cache=True, nogil=True)
-def _spread(cells, n, front, size, source):
-    """Turns bit offsets into places in the flat copies, far apart first; returns their number, a multiple of 8.
+def _pair_up(cells, n, strides, front, size, pieces):
+    """Turns the cells of a line into places in the flat chains, neighbours two at a time; returns their number."""
+    i, m = 0, 0
+    while i < n:
+        at, chain = cells[i], 0
+        if i + 1 < n:
+            for axis in range(3):
+                if abs(cells[i + 1] - at) == strides[axis]:
+                    chain = axis + 1
+        if chain > 0:
+            at = min(at, cells[i + 1])
+            i += 1
+        i += 1
+        bit = front + at
+        pieces[m] = (8 * chain + (bit & 7)) * size + (bit >> 3)
+        m += 1
+    return m
 
-    Neighbours on a line are blocked together; in the order of the golden section the first few cells already meet
+
+@numba.njit(cache=True, nogil=True)
+def _spread(pieces, n, source):
+    """Puts pieces that follow each other far apart; returns their number, filled up to a multiple of 8.
+
+    Neighbours on a line are blocked together; in the order of the golden section the first few pieces already meet
     most walls.
     """
     stride = max(int(n * 0.6180339887), 1)
@@ -80,8 +106,7 @@ def _spread(cells, n, front, size, source):
         stride += 1
     k = 0
     for i in range(n):
-        at = front + cells[k]
-        source[i] = (at & 7) * size + (at >> 3)
+        source[i] = pieces[k]
         k += stride
         if k >= n:
             k -= n
@@ -99,21 +124,20 @@ def _gcd(a, b):
 
 
 @numba.njit(cache=True, nogil=True)
-def _see(row, flat, source, n_source, targets, sources, front, step, n_bytes):
-    """Writes which voxels see along one line to `row`; returns whether any does."""
+def _see(stretch, flat, source, targets, sources, front, step, first):
+    """Writes which voxels of a stretch that starts at byte `first` see along one line; returns whether any does."""
     anything = False
-    for begin in range(0, n_bytes, _BLOCK):
-        n = min(_BLOCK, n_bytes - begin)
-        block = row[begin : begin + n]
+    for begin in range(0, len(stretch), _BLOCK):
+        block = stretch[begin : begin + _BLOCK]
         block[:] = 255
         alive = True
         if targets.shape[1] > 0:
-            alive = _keep(block, targets, front, step, begin, True)
+            alive = _keep(block, targets, front, step, first + begin, True)
         if alive and sources.shape[1] > 0:
-            alive = _keep(block, sources, front, step, begin, False)
+            alive = _keep(block, sources, front, step, first + begin, False)
         k = 0
-        while alive and k < n_source:
-            alive = _and8(block, flat, source[k : k + 8], begin) != 0
+        while alive and k < len(source):
+            alive = _and8(block, flat, source[k : k + 8], first + begin) != 0
             k += 8
         if alive:
             anything = True
@@ -153,18 +177,6 @@ def _and8(block, flat, source, begin):
         block[i] = x
         alive |= x
     return alive
-
-
-@numba.njit(cache=True, nogil=True)
-def _ones(row, n):
-    total = np.uint64(0)
-    for i in range(n):
-        x = row[i]
-        x -= (x >> np.uint64(1)) & np.uint64(0x5555555555555555)
-        x = (x & np.uint64(0x3333333333333333)) + ((x >> np.uint64(2)) & np.uint64(0x3333333333333333))
-        x = (x + (x >> np.uint64(4))) & np.uint64(0x0F0F0F0F0F0F0F0F)
-        total += (x * np.uint64(0x0101010101010101)) >> np.uint64(56)
-    return np.int64(total)
 
 
 @numba.njit(cache=True, nogil=True)
