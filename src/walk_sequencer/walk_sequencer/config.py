@@ -16,7 +16,7 @@ class SequencerConfig(Config):
     """How legs are planned and in which order the keypoints are visited."""
 
     milestones: int = param(
-        0, "milestones of the roadmap; 0 takes 800 and one more per square metre, at most 6000", low=0, high=20000
+        0, "milestones of the roadmap; 0 takes 800 and one more per square metre, at most 4000", low=0, high=20000
     )
     seed: int = param(1, "seed of the roadmap and of the order's random restarts", low=0, high=2**31 - 1)
     method: str = param(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 
@@ -12,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
-from walk_building.progress import Progress, no_progress
 
+from walk_building.progress import Progress, no_progress
 from walk_sequencer.ground import walk_line
 from walk_sequencer.regions import way_home
 from walk_sequencer.roadmap import Roadmap
@@ -24,15 +25,14 @@ _NEAREST_MILESTONES = 16
 _THREADS = 2
 
 
-def stand_near(roadmap: Roadmap, point: NDArray[np.float64]) -> Stand:
-    """Returns where to stand for a floor point (3,): the point itself if its surroundings are ground, else the
-    nearest place."""
-    nearest = int(roadmap.surface.nearest(point[None], roadmap.mask)[0])
-    place = int(np.searchsorted(roadmap.kept, nearest))
-    x, y = (float(c) for c in roadmap.ground.xyz[place, :2])
-    if walk_line(roadmap.ground, place, x, y, place, float(point[0]), float(point[1]), None)[0] < np.inf:
-        x, y = float(point[0]), float(point[1])
-    return Stand(place=place, x=x, y=y)
+def stand_at(roadmap: Roadmap, place: int, point: NDArray[np.float64]) -> Stand:
+    """Returns where to stand for a floor point (3,) next to a place of the ground.
+
+    That is the point itself if all around it is ground, else the centre of the place.
+    """
+    centre = _centre(roadmap, place)
+    stand = Stand(place, float(point[0]), float(point[1]))
+    return stand if _straight(roadmap, centre, stand) < np.inf else centre
 
 
 def plan_pairs(
@@ -114,7 +114,10 @@ class _Joined:
             if cost < np.inf:
                 links.append((first + i, first + len(stands) + j, cost))
         return cls(
-            roadmap=roadmap, stands=stands, graph=_extend(roadmap.graph, links, 2 * len(stands)), by_floor=frozenset(by_floor)
+            roadmap=roadmap,
+            stands=stands,
+            graph=_extend(roadmap.graph, links, 2 * len(stands)),
+            by_floor=frozenset(by_floor),
         )
 
     def unfold(self, before: NDArray[np.int32], i: int, j: int) -> NDArray[np.float64]:
@@ -124,7 +127,7 @@ class _Joined:
         while nodes[-1] != first + i:
             nodes.append(int(before[nodes[-1]]))
         nodes.reverse()
-        way = [vertex for a, b in zip(nodes, nodes[1:], strict=False) for vertex in self._between(a, b)[:-1]]
+        way = [vertex for a, b in itertools.pairwise(nodes) for vertex in self._between(a, b)[:-1]]
         return np.array([*way, self._vertex(nodes[-1])])
 
     def _between(self, a: int, b: int) -> list[Stand]:

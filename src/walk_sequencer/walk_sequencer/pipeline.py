@@ -4,14 +4,15 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
 from walk_building.building import Building
 from walk_building.errors import ParameterError
 from walk_building.progress import Progress, no_progress
-
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.order import ORDERS, resolve_method
 from walk_sequencer.pairs import plan_pairs
@@ -90,8 +91,8 @@ def _plan_legs(
     pairs = [(i, j) for at, i in enumerate(names) for j in names[at + 1 :]]
     legs: dict[tuple[int, int], Leg] = {}
     for i, j in pairs:
-        leg = known.get((stands[i], stands[j]))
-        if leg is not None:
+        if (stands[i], stands[j]) in known:
+            leg = known[stands[i], stands[j]]
             legs[i, j] = Leg(start=i, goal=j, points=leg.points, length_m=leg.length_m)
     missing = [pair for pair in pairs if pair not in legs]
     index = {name: at for at, name in enumerate(names)}
@@ -122,7 +123,7 @@ def _assemble(
     order = names[ORDERS[method](lengths[np.ix_(names, names)], start, end, config)]
     progress("order", 1.0)
     by_pair = {(leg.start, leg.goal): leg for leg in pairs}
-    legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in zip(order, order[1:], strict=False))
+    legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in itertools.pairwise(order.tolist()))
     eyes = _eyes(roadmap, stands, count)
     polyline = _polyline(legs, eyes[order])
     for array in (lengths, order, eyes, polyline):

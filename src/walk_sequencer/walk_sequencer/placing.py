@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
 from walk_building.building import Building
 from walk_building.errors import ParameterError
-
 from walk_sequencer.config import SequencerConfig
-from walk_sequencer.pairs import stand_near
+from walk_sequencer.pairs import stand_at
 from walk_sequencer.roadmap import Roadmap
 from walk_sequencer.tour import Stand, Unreachable
 
@@ -39,8 +39,10 @@ def part_of_tour(building: Building, floor: NDArray[np.float64], config: Sequenc
     """
     surface = building.surface
     if config.start >= 0:
-        place = int(_nearest(building, floor[config.start : config.start + 1], None, config.snap_m)[0][0])
-        if place >= 0 and not building.reachable[place] and surface.component[place] >= 0:
+        point = floor[config.start]
+        place = int(surface.nearest(point[None])[0])
+        near = float(np.linalg.norm(surface.places[place] - point)) <= config.snap_m
+        if near and not building.reachable[place] and surface.component[place] >= 0:
             return np.asarray(surface.component == surface.component[place])
     return building.reachable
 
@@ -53,28 +55,22 @@ def place_keypoints(
     The nearest place counts; one of the tour's part that is a cell farther is preferred to a nearer one elsewhere,
     but no keypoint is drawn through a wall to the part beyond it.
     """
-    own, own_gap = _nearest(building, floor, roadmap.mask, config.snap_m)
-    other, other_gap = _nearest(building, floor, None, np.inf)
+    own_gap, own = roadmap.floor_tree.query(floor)
+    # Within a cell no other part can be preferred, and the search among all places can be spared.
+    far = np.flatnonzero(own_gap > building.surface.cell_m)
+    other, other_gap = np.full(len(floor), -1), np.zeros(len(floor))
+    if len(far):
+        other[far] = building.surface.nearest(floor[far])
+        other_gap[far] = np.linalg.norm(building.surface.places[other[far]] - floor[far], axis=1)
     stands, unreachable = {}, []
     for k, point in enumerate(floor):
-        if own[k] >= 0 and own_gap[k] <= other_gap[k] + building.surface.cell_m:
-            stands[k] = stand_near(roadmap, point)
+        if own_gap[k] <= min(config.snap_m, other_gap[k] + building.surface.cell_m):
+            stands[k] = stand_at(roadmap, int(own[k]), point)
         elif other_gap[k] <= config.snap_m:
             unreachable.append(Unreachable(index=k, reason=_elsewhere(building, int(other[k]))))
         else:
             unreachable.append(Unreachable(index=k, reason=_no_floor(building, float(other_gap[k]), config)))
     return stands, tuple(unreachable)
-
-
-def _nearest(
-    building: Building, floor: NDArray[np.float64], mask: NDArray[np.bool_] | None, limit_m: float
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Returns the nearest place, -1 if none is within the limit, and its distance [m]."""
-    place = building.surface.nearest(floor, mask)
-    gap = np.full(len(floor), np.inf)
-    found = place >= 0
-    gap[found] = np.linalg.norm(building.surface.places[place[found]] - floor[found], axis=1)
-    return np.where(gap <= limit_m, place, -1), gap
 
 
 def _elsewhere(building: Building, place: int) -> str:
@@ -89,5 +85,5 @@ def _elsewhere(building: Building, place: int) -> str:
 
 def _no_floor(building: Building, gap_m: float, config: SequencerConfig) -> str:
     eye = building.walker.eye_height_m
-    nearest = f"the nearest is {gap_m:.1f} m away" if np.isfinite(gap_m) else "there is none at all"
-    return f"no floor to stand on within {config.snap_m:g} m of the point {eye:g} m below it; {nearest}"
+    where = f"within {config.snap_m:g} m of the point {eye:g} m below it"
+    return f"no floor to stand on {where}; the nearest is {gap_m:.1f} m away"

@@ -15,8 +15,8 @@ util.setLogLevel(util.LogLevel.LOG_WARN)
 util.RNG.setSeed(1)
 
 
-def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Returns the edges (E, 2), i < j, of the PRM* roadmap with the given places as milestones, in this order.
+def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Returns the edges (E, 2), i < j, of the PRM* roadmap with the given places as milestones, and their costs (E,).
 
     Each milestone is joined to its nearest ones [KaramanFrazzoli2011] where a straight walk leads there. Edges and
     milestones are indices into `places`.
@@ -29,9 +29,10 @@ def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> NDArray[np.int64]
     if len(index) != len(places):
         raise AssertionError("milestones must be different places")
     problem = base.SpaceInformation(_space(coordinates))
-    problem.setStateValidityChecker(lambda state: True)
+    problem.setStateValidityChecker(lambda _: True)
     problem.setValidStateSamplerAllocator(lambda info: _Milestones(info, coordinates))
-    problem.setMotionValidator(_Walks(problem, ground, places, index))
+    walks = _Walks(problem, ground, places, index)
+    problem.setMotionValidator(walks)
     problem.setup()
     planner = geometric.PRMstar(problem)
     planner.setProblemDefinition(base.ProblemDefinition(problem))
@@ -41,7 +42,8 @@ def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> NDArray[np.int64]
     planner.growRoadmapPtc(enough)
     data = base.PlannerData(problem)
     planner.getPlannerData(data)
-    return _edges(data, index)
+    edges = _edges(data, index)
+    return edges, np.array([walks.costs[i, j] for i, j in edges.tolist()])
 
 
 def _space(coordinates: NDArray[np.float64]) -> base.RealVectorStateSpace:
@@ -76,7 +78,7 @@ class _Milestones(base.ValidStateSampler):  # type: ignore[misc]
         state[0], state[1], state[2] = point
         return True
 
-    def sampleNear(self, state: base.State, near: base.State, distance: float) -> bool:  # noqa: N802  OMPL's name
+    def sampleNear(self, *_: object) -> bool:  # noqa: N802  OMPL's name
         return False
 
 
@@ -88,7 +90,12 @@ class _Walks(base.MotionValidator):  # type: ignore[misc]
     ) -> None:
         super().__init__(info)
         self._ground, self._places, self._index = ground, places.tolist(), index
+        self.costs: dict[tuple[int, int], float] = {}  # of the walks there are, by milestones i < j
 
     def checkMotion(self, start: base.State, end: base.State) -> bool:  # noqa: N802  OMPL's name
-        a, b = self._places[self._index[start[0]]], self._places[self._index[end[0]]]
-        return walk_between(self._ground, a, b) < np.inf
+        i, j = self._index[start[0]], self._index[end[0]]
+        cost = walk_between(self._ground, self._places[i], self._places[j])
+        if cost == np.inf:
+            return False
+        self.costs[(i, j) if i < j else (j, i)] = cost
+        return True

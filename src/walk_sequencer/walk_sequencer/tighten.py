@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from walk_sequencer.ground import Ground, walk_line
 
-_GAIN = 1e-9
-_PASSES = 3
+_EQUAL = 1e-9
+_LEAST_GAIN = 1e-3  # [m] of cost; what is less is not worth a walk
+_PASSES = 2  # a third gains less than 0.1 % of the length
 
 
 @numba.njit(cache=True, nogil=True)
@@ -39,7 +40,7 @@ def _skip(ground, way, n):  # type: ignore[no-untyped-def]
     while at < n - 1:
         best, reach = at + 1, 2
         while at + reach < n:
-            if not _hop(ground, way, at, at + reach) <= so_far[at + reach] - so_far[at] + _GAIN:
+            if not _hop(ground, way, at, at + reach) <= so_far[at + reach] - so_far[at] + _EQUAL:
                 break
             best = at + reach
             reach *= 2
@@ -47,7 +48,7 @@ def _skip(ground, way, n):  # type: ignore[no-untyped-def]
         low, high = best - at, min(reach, n - at)
         while high - low > 1:
             middle = (low + high) // 2
-            if _hop(ground, way, at, at + middle) <= so_far[at + middle] - so_far[at] + _GAIN:
+            if _hop(ground, way, at, at + middle) <= so_far[at + middle] - so_far[at] + _EQUAL:
                 low = middle
             else:
                 high = middle
@@ -58,11 +59,16 @@ def _skip(ground, way, n):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
+def _flat(way, k, point):  # type: ignore[no-untyped-def]
+    return np.sqrt((way[k, 1] - point[0]) ** 2 + (way[k, 2] - point[1]) ** 2)
+
+
+@numba.njit(cache=True, nogil=True)
 def _pull(ground, way, k):  # type: ignore[no-untyped-def]
     """Moves vertex k to where the walk over it costs least, by ever smaller steps; returns whether it moved."""
     best = _hop(ground, way, k - 1, k) + _hop(ground, way, k, k + 1)
     moved = False
-    stride = 8
+    stride = 4
     while stride > 0:
         better = False
         for direction in range(9):
@@ -72,12 +78,15 @@ def _pull(ground, way, k):  # type: ignore[no-untyped-def]
                     p = ground.step[p, direction]
             if p < 0:
                 continue
+            # No walk is cheaper than the straight lines in plan, which rules most places out unwalked.
+            if _flat(way, k - 1, ground.xyz[p]) + _flat(way, k + 1, ground.xyz[p]) >= best - _LEAST_GAIN:
+                continue
             kept = way[k, 0], way[k, 1], way[k, 2]
             way[k, 0], way[k, 1], way[k, 2] = p, ground.xyz[p, 0], ground.xyz[p, 1]
             cost = _hop(ground, way, k - 1, k)
             if cost < best:
                 cost += _hop(ground, way, k, k + 1)
-            if cost < best - 1e-6:
+            if cost < best - _LEAST_GAIN:
                 best, better, moved = cost, True, True
             else:
                 way[k, 0], way[k, 1], way[k, 2] = kept

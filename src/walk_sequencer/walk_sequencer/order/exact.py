@@ -7,14 +7,19 @@ from __future__ import annotations
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.errors import ParameterError
 
+from walk_building.errors import ParameterError
 from walk_sequencer.config import SequencerConfig
 
 MAX_EXACT = 14  # the table has 2^n n entries, and the time grows likewise: 12 ms here, seconds at 20
 
 
-def order_exact(costs: NDArray[np.float64], start: int, end: int, config: SequencerConfig) -> NDArray[np.int64]:
+def order_exact(
+    costs: NDArray[np.float64],
+    start: int,
+    end: int,
+    config: SequencerConfig,  # noqa: ARG001  the signature of all orders
+) -> NDArray[np.int64]:
     """Returns an order of least cost [HeldKarp1962], in O(2^n n^2).
 
     Raises:
@@ -24,7 +29,8 @@ def order_exact(costs: NDArray[np.float64], start: int, end: int, config: Sequen
         raise ParameterError("method", "exact", f"local_search for {len(costs)} keypoints; exact takes {MAX_EXACT}")
     if len(costs) < 2:
         return np.arange(len(costs))
-    return _held_karp(np.ascontiguousarray(costs, dtype=np.float64), start, end)
+    order: NDArray[np.int64] = _held_karp(np.ascontiguousarray(costs, dtype=np.float64), start, end)
+    return order
 
 
 @numba.njit(cache=True, nogil=True)
@@ -47,7 +53,7 @@ def _held_karp(costs, start, end):  # type: ignore[no-untyped-def]
                     best[seen | (1 << k), k] = cost
                     before[seen | (1 << k), k] = last
     seen = (1 << n) - 1
-    last = end if end >= 0 else np.argmin(best[seen])
+    last = end if end >= 0 else int(np.argmin(best[seen]))
     order = np.empty(n, dtype=np.int64)
     for at in range(n - 1, -1, -1):
         order[at] = last

@@ -17,10 +17,10 @@ _STARTS = 8
 def order_local_search(costs: NDArray[np.float64], start: int, end: int, config: SequencerConfig) -> NDArray[np.int64]:
     """Returns an order that no reversal of a stretch [Croes1958] and no move of up to three keypoints [Or1976] betters.
 
-    Starts from nearest-neighbour orders, keeps the best, and tries again `config.kicks` times from it with three stretches
-    exchanged (the double bridge of [MartinOttoFelten1991]). Costs need not be symmetric. The open tour is searched
-    as a closed one through a further vertex that costs nothing, from which only a chosen start and to which only a
-    chosen end can be had for less than every tour costs.
+    Starts from nearest-neighbour orders, keeps the best, and tries again `config.kicks` times from it with two
+    stretches exchanged (the double bridge of [MartinOttoFelten1991]). Costs need not be symmetric. The open tour is
+    searched as a closed one through a further vertex that costs nothing, from which only a chosen start and to which
+    only a chosen end can be had for less than every tour costs.
     """
     n = len(costs)
     if n < 3:
@@ -37,7 +37,8 @@ def order_local_search(costs: NDArray[np.float64], start: int, end: int, config:
     random = np.random.default_rng(config.seed)
     firsts = random.permutation(n)[:_STARTS] if start < 0 else np.array([start])
     cuts = np.sort(random.integers(1, n + 1, size=(config.kicks, 3)), axis=1)
-    return _search(closed, firsts.astype(np.int64) + 1, cuts.astype(np.int64))[1:] - 1
+    tour: NDArray[np.int64] = _search(closed, firsts.astype(np.int64) + 1, cuts.astype(np.int64))
+    return tour[1:] - 1
 
 
 @numba.njit(cache=True, nogil=True)
@@ -88,28 +89,36 @@ def _two_opt(costs, tour):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
+def _best_gap(costs, tour, i, size):  # type: ignore[no-untyped-def]
+    """Returns (k, turned) for the piece tour[i..i+size) best put behind tour[k], k -1 where it is best off already."""
+    n = len(tour)
+    a, b, c, d = tour[i - 1], tour[i], tour[i + size - 1], tour[(i + size) % n]
+    turned = 0.0
+    for k in range(i, i + size - 1):
+        turned += costs[tour[k + 1], tour[k]] - costs[tour[k], tour[k + 1]]
+    saved = costs[a, b] + costs[c, d] - costs[a, d]
+    best, to, turn = -1e-9, -1, False
+    for k in range(n):
+        if i - 1 <= k < i + size:
+            continue
+        p, q = tour[k], tour[(k + 1) % n]
+        gap = costs[p, q] + saved
+        straight = costs[p, b] + costs[c, q] - gap
+        backward = costs[p, c] + costs[b, q] + turned - gap
+        if straight < best:
+            best, to, turn = straight, k, False
+        if backward < best:
+            best, to, turn = backward, k, True
+    return to, turn
+
+
+@numba.njit(cache=True, nogil=True)
 def _or_opt(costs, tour, piece):  # type: ignore[no-untyped-def]
     """Moves pieces tour[i..i+size) to where they cost less, turned or not; returns whether one moved."""
     n, better = len(tour), False
     for size in range(1, _LONGEST_PIECE + 1):
         for i in range(1, n - size + 1):
-            a, b, c, d = tour[i - 1], tour[i], tour[i + size - 1], tour[(i + size) % n]
-            turned = 0.0
-            for k in range(i, i + size - 1):
-                turned += costs[tour[k + 1], tour[k]] - costs[tour[k], tour[k + 1]]
-            saved = costs[a, b] + costs[c, d] - costs[a, d]
-            best, to, turn = -1e-9, -1, False
-            for k in range(n):
-                if i - 1 <= k < i + size:
-                    continue
-                p, q = tour[k], tour[(k + 1) % n]
-                gap = costs[p, q] + saved
-                straight = costs[p, b] + costs[c, q] - gap
-                backward = costs[p, c] + costs[b, q] + turned - gap
-                if straight < best:
-                    best, to, turn = straight, k, False
-                if backward < best:
-                    best, to, turn = backward, k, True
+            to, turn = _best_gap(costs, tour, i, size)
             if to < 0:
                 continue
             better = True

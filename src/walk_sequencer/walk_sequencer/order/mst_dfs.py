@@ -10,7 +10,12 @@ from numpy.typing import NDArray
 from walk_sequencer.config import SequencerConfig
 
 
-def order_mst_dfs(costs: NDArray[np.float64], start: int, end: int, config: SequencerConfig) -> NDArray[np.int64]:
+def order_mst_dfs(
+    costs: NDArray[np.float64],
+    start: int,
+    end: int,
+    config: SequencerConfig,  # noqa: ARG001  the signature of all orders
+) -> NDArray[np.int64]:
     """Returns the tree's vertices depth first [Schmidiger], for comparison.
 
     Where the costs are a metric the order costs at most twice the optimum. The nearest child goes first. A chosen
