@@ -9,7 +9,6 @@ import dataclasses
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import minimum_filter1d
 
 from walk_building.errors import ParameterError
 from walk_trajopt.config import TimingConfig
@@ -63,9 +62,7 @@ def _at_speed(
 ) -> Clock:
     smoothing_s = 2.0 * config.max_acceleration_mps2 / config.max_jerk_mps3
     limit = _limits(heading, config, speed_mps)
-    # The speed is averaged over time below; lowest within the reach of that average, it stays within the limit.
-    reach = 2 * int(np.ceil(0.5 * speed_mps * smoothing_s / heading.spacing_m)) + 1
-    limit = minimum_filter1d(limit, reach, mode="nearest")
+    limit = _widened(limit, heading.spacing_m, config.max_acceleration_mps2, 0.5 * smoothing_s)
     limit[0] = limit[-1] = 0.0
     at = np.rint(stops_m / heading.spacing_m).astype(np.int64)
     limit[at] = 0.0
@@ -83,6 +80,20 @@ def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray
     turning = np.abs(np.gradient(heading.look, heading.spacing_m))
     looking = config.max_turn_rate_radps / np.maximum(turning, 1e-9)
     return np.minimum(speed_mps, np.maximum(np.minimum(lateral, looking), min(_CREEP_MPS, speed_mps)))
+
+
+@numba.njit(cache=True, nogil=True)
+def _widened(limit, spacing, acceleration, half_s):
+    """Lets each limit hold as far around its place as the walker comes in half the time of the smoothing.
+
+    The average over time that follows the passes then stays within the limit that was there before.
+    """
+    out = limit.copy()
+    for i in range(len(limit)):
+        reach = int(np.ceil((limit[i] * half_s + 0.5 * acceleration * half_s**2) / spacing))
+        for j in range(max(i - reach, 0), min(i + reach + 1, len(limit))):
+            out[j] = min(out[j], limit[i])
+    return out
 
 
 @numba.njit(cache=True, nogil=True)

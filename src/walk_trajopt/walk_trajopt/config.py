@@ -32,16 +32,19 @@ class TrajoptConfig(Config):
         low=0.02,
         high=5.0,
     )
-    weight_deviation: float = param(0.2, "pull towards the planned tour", low=0.0, high=1e6)
-    weight_length: float = param(0.2, "pull towards a short path", low=0.0, high=1e6)
-    weight_smoothness: float = param(0.5, "pull towards an even, smooth path", low=0.0, high=1e6)
-    weight_clearance: float = param(40.0, "push away from what is nearer than clearance_m", low=0.0, high=1e6)
-    weight_height: float = param(20.0, "pull towards the eye height above the floor", low=0.0, high=1e6)
+    weight_deviation: float = param(0.01, "pull towards the planned tour", low=0.0, high=1e6)
+    weight_length: float = param(0.01, "pull towards a short path", low=0.0, high=1e6)
+    weight_smoothness: float = param(1.0, "pull towards an even, smooth path", low=0.0, high=1e6)
+    weight_clearance: float = param(50.0, "push away from what is nearer than clearance_m", low=0.0, high=1e6)
+    weight_height: float = param(100.0, "pull towards the eye height above the floor", low=0.0, high=1e6)
     weight_keypoints: float = param(
-        1.0, "pull of the path's points at keypoints towards these keypoints (our own; 0 is the source)", low=0.0, high=1e6
+        10.0, "pull towards keypoints that are missed by more than keypoint_radius_m (our own)", low=0.0, high=1e6
+    )
+    keypoint_radius_m: float = param(
+        0.5, "how near to a keypoint the path has to pass, so that it can turn there", unit="m", low=0.0, high=10.0
     )
     clearance_m: float = param(
-        0.5, "wished distance D between the body's axis, or the eye, and the building", unit="m", low=0.0, high=10.0
+        0.42, "wished distance D between the body's axis, or the eye, and the building", unit="m", low=0.0, high=10.0
     )
     clearance_of: str = param(
         "body",
@@ -86,20 +89,20 @@ class TimingConfig(Config):
 
     speed_mps: float = param(1.4, "wished walking speed", unit="m/s", low=0.05, high=3.0)
     max_speed_mps: float = param(3.0, "speed that is never exceeded, whatever duration is wished", unit="m/s", low=0.05, high=3.0)
-    max_acceleration_mps2: float = param(0.8, "largest change of speed", unit="m/s²", low=0.05, high=10.0)
+    max_acceleration_mps2: float = param(1.0, "largest change of speed", unit="m/s²", low=0.05, high=10.0)
     max_lateral_acceleration_mps2: float = param(
-        1.0, "largest acceleration sideways: it slows the walker down in turns", unit="m/s²", low=0.05, high=20.0
+        2.0, "largest acceleration sideways: it slows the walker down in turns", unit="m/s²", low=0.05, high=20.0
     )
-    max_jerk_mps3: float = param(4.0, "largest change of acceleration along the path", unit="m/s³", low=0.2, high=200.0)
+    max_jerk_mps3: float = param(6.0, "largest change of acceleration along the path", unit="m/s³", low=0.2, high=200.0)
     max_turn_rate_radps: float = param(
-        1.4, "fastest turn of the look direction, 80° a second; what makes people sick first", unit="rad/s", low=0.05, high=10.0
+        1.57, "fastest turn of the look direction, 90° a second; what makes people sick first", unit="rad/s", low=0.05, high=10.0
     )
     max_turn_acceleration_radps2: float = param(
         6.0, "fastest change of the turn rate", unit="rad/s²", low=0.1, high=200.0
     )
     lookahead_m: float = param(0.4, "how far ahead on the path the look direction is taken", unit="m", low=0.0, high=5.0)
     look_smoothing_m: float = param(
-        0.4, "length over which the direction of the path is averaged for the look direction", unit="m", low=0.05, high=5.0
+        0.7, "length over which the direction of the path is averaged for the look direction", unit="m", low=0.05, high=5.0
     )
     look_at_m: float = param(
         1.5, "distance along the path from a keypoint at which the look begins to turn to what is seen there",

@@ -24,7 +24,7 @@ class Heading:
     bend: NDArray[np.float64]  # (g,) curvature of the path, vertical bends included [1/m]
 
 
-_BODY_M = 0.12  # over which a bend is averaged: nobody's hips follow a polyline's corners
+_BODY_M = 0.2  # over which a bend is averaged: nobody's hips follow a polyline's corners
 
 
 def heading_of(points: NDArray[np.float64], arc_m: NDArray[np.float64], lookahead_m: float, smoothing_m: float) -> Heading:

@@ -11,18 +11,22 @@ from numpy.typing import ArrayLike, NDArray
 
 from walk_building.building import Building
 from walk_building.errors import ParameterError
-from walk_building.sweep import BodySweep
+from walk_trajopt.check import PathCheck
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine
 from walk_trajopt.objectives import Setting
 from walk_trajopt.path import OptimisedPath, Stretch, read_only
 from walk_trajopt.polyline import Polyline, as_polyline_points
 from walk_trajopt.problem import Problem
-from walk_trajopt.repair import Mended, Way, repair
-from walk_trajopt.resample import keypoint_arcs, point_count, resample
+from walk_trajopt.repair import Mended, Way, colliding, repair
+from walk_trajopt.resample import keypoint_arcs, point_count
 from walk_trajopt.solvers import SOLVERS, Solution
+from walk_trajopt.state import State, bent, initial_state
 
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
+
+_EASE_M = 1.5  # on both sides of a colliding stretch that is optimised again
+_EASED = "optimised again with more weight on the clearance"
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,110 +39,174 @@ class EditOutcome:
 
 
 class Optimiser:
-    """Holds one trajectory problem and its solution; edits change both locally.
+    """Holds one trajectory problem and its solution; an edit changes both locally.
 
-    Points keep their number and the tour its parameter through edits, so that what is not beside an edited keypoint
-    stays exactly where it is.
+    What is not beside an edited keypoint stays exactly where it is. Not safe to share between threads.
 
     Attributes:
         config: As given.
-        keypoints: (M, 3) as they are now, in the order of the tour [m].
-        path: The last valid path; None before `optimise`.
+        state: The solution; taking back an earlier one undoes what came after it.
     """
 
     def __init__(
-        self, building: Building, polyline: ArrayLike, keypoints: ArrayLike, config: TrajoptConfig = TrajoptConfig()
+        self, building: Building, polyline: ArrayLike, keypoints: ArrayLike, config: TrajoptConfig | None = None
     ) -> None:
-        self.config = config
-        self.keypoints = as_polyline_points("keypoints", keypoints, at_least=0)
-        self.path: OptimisedPath | None = None
+        self.config = config or TrajoptConfig()
         self._building = building
-        self._sweep = BodySweep(building.geometry, building.walker)
-        self._tour = Polyline(as_polyline_points("polyline", polyline))
-        if len(self._tour.points) < 2:
+        self._check = PathCheck(building.geometry, building.walker)
+        tour = Polyline(as_polyline_points("polyline", polyline))
+        if len(tour.points) < 2:
             raise ParameterError("polyline", "all points at one place", "a tour of some length")
-        self._keypoint_m = keypoint_arcs(self._tour, self.keypoints)
-        samples = resample(self._tour, self._keypoint_m, point_count(self._tour.length_m, config))
-        self._spacing_m = self._tour.length_m / (len(samples.points) - 1)
-        self._start, self._arc_m, self._keypoint_index = samples.points, samples.arc_m, samples.keypoint_index
-        self._x = samples.points
-        self._way = Way(points=samples.points, tour_m=samples.arc_m)
-        self._mended: list[Mended] = []
+        stops = as_polyline_points("keypoints", keypoints, at_least=0)
+        n = point_count(tour.length_m, self.config)
+        self.state: State = initial_state(tour, stops, keypoint_arcs(tour, stops), n)
+        self._spacing_m = tour.length_m / (n - 1)
+        self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
         """Solves the whole problem from the planned tour."""
-        self._solution = self._solve(self._start, self._start, 0, len(self._start) - 1)
-        self._x = self._solution.x
+        start = dataclasses.replace(self.state, x=self.state.start)
+        self._solution = self._solve(start, 0, len(start.x) - 1)
+        self.state = dataclasses.replace(start, x=self._solution.x)
 
     def check(self) -> OptimisedPath:
         """Sweeps the body along the whole path, repairs it where it does not pass, and returns it."""
-        self._way, self._mended = self._checked(self._x, self._tour, 0, len(self._x) - 1)
-        self.path = self._named(self._solution)
-        return self.path
+        self.state = self._checked(self.state, 0, len(self.state.x) - 1)
+        return self.path()
 
-    def _solve(self, start: NDArray[np.float64], x: NDArray[np.float64], first: int, last: int) -> Solution:
+    def move_keypoint(
+        self,
+        keypoint: int,
+        position: ArrayLike,
+        before: ArrayLike | None = None,
+        after: ArrayLike | None = None,
+    ) -> EditOutcome:
+        """Moves a keypoint and optimises the legs beside it, from where they are.
+
+        Args:
+            keypoint: Its index.
+            position: (3,) where its eye is wanted; the floor decides about the height [m].
+            before: (L, 3) a newly planned leg from the keypoint before to the position; None bends the one there is.
+            after: (L, 3) the same from the position to the keypoint after.
+
+        Returns:
+            The new path; or, if there is no floor or the body does not pass even after repair, the last valid path
+            and the reason.
+
+        Raises:
+            ParameterError: No such keypoint, or numbers that are not finite.
+        """
+        if not 0 <= keypoint < len(self.state.keypoints):
+            raise ParameterError("keypoint", keypoint, f"an index below {len(self.state.keypoints)}")
+        eye = self._on_floor(as_polyline_points("position", np.reshape(position, (-1, 3)), at_least=1))
+        if not np.isfinite(eye).all():
+            return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
+        legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
+        moved = bent(self.state, keypoint, eye[0], (legs[0], legs[1]), self._spacing_m)
+        first, last = moved.window(keypoint)
+        solution = self._solve(moved, first, last)
+        checked = self._checked(dataclasses.replace(moved, x=solution.x), first, last)
+        stuck = [m for m in checked.mended if not m.free and m not in self.state.mended]
+        if stuck:
+            reason = f"the body would touch the building {len(stuck)} times beside keypoint {keypoint}"
+            return EditOutcome(path=self.path(), accepted=False, reason=reason)
+        self.state, self._solution = checked, solution
+        return EditOutcome(path=self.path(), accepted=True, reason="")
+
+    def path(self) -> OptimisedPath:
+        """Returns the path of the present state, its stretches named by its own arc length."""
+        state = self.state
+        points, tour_m = state.way.points, state.way.tour_m
+        arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+        whole = Problem(self._setting(state, 0, len(state.x)), self.config, np.zeros(len(state.x), bool))
+        return OptimisedPath(
+            points=read_only(points),
+            keypoint_index=np.abs(tour_m[None, :] - state.keypoint_m[:, None]).argmin(axis=1).astype(np.int64),
+            cost=whole.costs(state.x),
+            iterations=self._solution.iterations,
+            evaluations=self._solution.evaluations,
+            solver=self.config.solver,
+            repaired=tuple(_stretch(m, state, arc) for m in state.mended if m.free),
+            colliding=tuple(_stretch(m, state, arc) for m in state.mended if not m.free),
+        )
+
+    def _on_floor(self, eyes: NDArray[np.float64]) -> NDArray[np.float64]:
+        height = self._building.walker.eye_height_m
+        floor = self._building.surface.floor_z(eyes, height)
+        return np.column_stack([eyes[:, :2], floor + height])
+
+    def _solve(self, state: State, first: int, last: int, config: TrajoptConfig | None = None) -> Solution:
         """Optimises the points between `first` and `last`, these two and all beyond them fixed."""
-        low, high = max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(x))
+        config = config or self.config
+        low, high = max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
         fixed = np.ones(high - low, bool)
         fixed[first + 1 - low : last - low] = False
-        inside = (self._keypoint_index >= low) & (self._keypoint_index < high)
-        setting = self._setting(start[low:high], self.keypoints[inside], self._keypoint_index[inside] - low)
-        solution = SOLVERS[self.config.solver](Problem(setting, self.config, fixed), x[low:high], self.config)
-        whole = x.copy()
-        whole[low:high] = solution.x
-        return dataclasses.replace(solution, x=whole)
+        problem = Problem(self._setting(state, low, high), config, fixed)
+        solution = SOLVERS[config.solver](problem, state.x[low:high], config)
+        x = state.x.copy()
+        x[low:high] = solution.x
+        return dataclasses.replace(solution, x=x)
 
-    def _setting(
-        self, start: NDArray[np.float64], keypoints: NDArray[np.float64], index: NDArray[np.int64]
-    ) -> Setting:
-        building = self._building
+    def _setting(self, state: State, low: int, high: int) -> Setting:
+        inside = (state.keypoint_index >= low) & (state.keypoint_index < high)
         return Setting(
-            start=start,
+            start=state.start[low:high],
             spacing_m=self._spacing_m,
-            keypoints=keypoints,
-            keypoint_index=index,
-            geometry=building.geometry,
-            surface=building.surface,
-            walker=building.walker,
+            keypoints=state.keypoints[inside],
+            keypoint_index=state.keypoint_index[inside] - low,
+            keypoint_radius_m=self.config.keypoint_radius_m,
+            geometry=self._building.geometry,
+            surface=self._building.surface,
+            walker=self._building.walker,
             clearance_m=self.config.clearance_m,
             clearance_of=self.config.clearance_of,
         )
 
-    def _checked(self, x: NDArray[np.float64], tour: Polyline, first: int, last: int) -> tuple[Way, list[Mended]]:
+    def _checked(self, state: State, first: int, last: int) -> State:
         """Draws the curve through points `first` to `last` anew, sweeps the body along it and repairs it."""
-        curve, place = refine(x, self.config.chord_error_m)
-        drawn = Way(points=curve, tour_m=np.interp(place, np.arange(len(x)), self._arc_m))
         # A curve reaches one span beyond a moved point.
-        low, high = self._arc_m[max(first - 1, 0)], self._arc_m[min(last + 1, len(x) - 1)]
-        piece = drawn.between(low, high)
-        way = self._way.replaced(piece)
-        way, mended = repair(way, tour, self._keypoint_m, self._sweep, (low, high))
-        return way, [m for m in self._mended if m.end_m < low or m.start_m > high] + mended
+        begin, end = max(first - 1, 0), min(last + 1, len(state.x) - 1)
+        window = float(state.arc_m[begin]), float(state.arc_m[end])
+        state = self._drawn(state, begin, end)
+        eased = []
+        for stretch in colliding(state.way, self._check, window):
+            state = self._eased(state, stretch, (first, last))
+            eased.append(Mended(start_m=stretch[0], end_m=stretch[1], free=True, how=_EASED))
+        if eased:
+            state = self._drawn(state, begin, end)
+        way, mended = repair(state.way, state.tour, state.keypoint_m, self._check, window)
+        eased = [e for e in eased if not any(m.start_m < e.end_m and m.end_m > e.start_m for m in mended)]
+        kept = [m for m in state.mended if m.end_m < window[0] or m.start_m > window[1]]
+        return dataclasses.replace(state, way=way, mended=tuple(sorted(kept + eased + mended, key=lambda m: m.start_m)))
 
-    def _named(self, solution: Solution) -> OptimisedPath:
-        """Returns the path with its stretches named by its own arc length."""
-        points, tour_m = self._way.points, self._way.tour_m
-        arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-        index = np.abs(tour_m[None, :] - self._keypoint_m[:, None]).argmin(axis=1)
+    def _drawn(self, state: State, begin: int, end: int) -> State:
+        """Returns the state with its way drawn anew between two points, without the check."""
+        # Two more points on both sides give the drawn piece the tangents that it has within the whole.
+        a, b = max(begin - 2, 0), min(end + 3, len(state.x))
+        curve, place = refine(state.x[a:b], self.config.chord_error_m)
+        drawn = Way(points=curve, tour_m=np.interp(place, np.arange(b - a), state.arc_m[a:b]))
+        piece = drawn.between(float(state.arc_m[begin]), float(state.arc_m[end]))
+        return dataclasses.replace(state, way=state.way.replaced(piece))
 
-        def stretch(mended: Mended) -> Stretch:
-            start, end = np.interp([mended.start_m, mended.end_m], tour_m, arc)
-            after = int(np.searchsorted(self._keypoint_m, mended.start_m, side="right")) - 1
-            before = int(np.searchsorted(self._keypoint_m, mended.end_m, side="left"))
-            return Stretch(
-                start_m=float(start), end_m=float(end), after_keypoint=after, before_keypoint=before, how=mended.how
-            )
+    def _eased(self, state: State, stretch_m: tuple[float, float], limits: tuple[int, int]) -> State:
+        """Optimises a stretch that collides again: from the planned tour, with more weight on the clearance."""
+        first = max(int(np.searchsorted(state.arc_m, stretch_m[0] - _EASE_M)), limits[0])
+        last = min(int(np.searchsorted(state.arc_m, stretch_m[1] + _EASE_M)), limits[1])
+        if last - first < 2:
+            return state
+        x = state.x.copy()
+        x[first + 1 : last] = state.start[first + 1 : last]
+        stiffer = dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
+        solution = self._solve(dataclasses.replace(state, x=x), first, last, stiffer)
+        return dataclasses.replace(state, x=solution.x)
 
-        whole = Problem(
-            self._setting(self._start, self.keypoints, self._keypoint_index), self.config, np.zeros(len(self._x), bool)
-        )
-        return OptimisedPath(
-            points=read_only(points),
-            keypoint_index=index.astype(np.int64),
-            cost=whole.costs(self._x),
-            iterations=solution.iterations,
-            evaluations=solution.evaluations,
-            solver=self.config.solver,
-            repaired=tuple(stretch(m) for m in self._mended if m.free),
-            colliding=tuple(stretch(m) for m in self._mended if not m.free),
-        )
+
+def _stretch(mended: Mended, state: State, arc_m: NDArray[np.float64]) -> Stretch:
+    start, end = np.interp([mended.start_m, mended.end_m], state.way.tour_m, arc_m)
+    return Stretch(
+        start_m=float(start),
+        end_m=float(end),
+        after_keypoint=int(np.searchsorted(state.keypoint_m, mended.start_m, side="right")) - 1,
+        before_keypoint=int(np.searchsorted(state.keypoint_m, mended.end_m, side="left")),
+        how=mended.how,
+    )

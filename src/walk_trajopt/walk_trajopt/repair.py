@@ -13,12 +13,13 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.check import Sweep, colliding_runs
+from walk_trajopt.check import PathCheck, colliding_runs
 from walk_trajopt.curve import rounded
 from walk_trajopt.polyline import Polyline, interpolate
 
 _GAP_M = 0.5  # colliding stretches closer than a step are mended as one
 _STEP_M = 0.1  # spacing of the points of a mended stretch
+_SHIFT_M = 1.5  # farthest that the optimiser moves a point along the tour
 _SAME_M = 2e-6  # arc lengths are rounded to micrometres, so that no two points are nearly one
 _RAMPS_M = (0.5, 1.0, 2.0, 4.0, 8.0)  # over which a stretch goes over into its neighbours
 
@@ -70,8 +71,17 @@ _ATTEMPTS = (
 )
 
 
+def colliding(way: Way, check: PathCheck, window_m: tuple[float, float]) -> list[tuple[float, float]]:
+    """Returns the stretches of the way within a window, as arc lengths on the tour, that the body does not pass."""
+    inside = np.flatnonzero((way.tour_m[:-1] < window_m[1]) & (way.tour_m[1:] > window_m[0]))
+    free = np.ones(len(way.tour_m) - 1, bool)
+    if len(inside):
+        free[inside] = check.segments_free(way.points[inside[0] : inside[-1] + 2])
+    return colliding_runs(free, way.tour_m, _GAP_M)
+
+
 def repair(
-    way: Way, tour: Polyline, keep_m: NDArray[np.float64], sweep: Sweep, window_m: tuple[float, float]
+    way: Way, tour: Polyline, keep_m: NDArray[np.float64], check: PathCheck, window_m: tuple[float, float]
 ) -> tuple[Way, list[Mended]]:
     """Mends every stretch that does not pass.
 
@@ -79,34 +89,30 @@ def repair(
         way: The optimised path.
         tour: The planned polyline, by whose arc length the way is parametrised.
         keep_m: Arc lengths on the tour that must stay points of the way: those of the keypoints.
-        sweep: The check.
+        check: What tells where the body passes.
         window_m: Arc lengths on the tour outside of which the way is known to pass and is left alone.
 
     Returns:
         The way, and what was done about each stretch, `free` telling with what success.
     """
-    inside = (way.tour_m[:-1] < window_m[1]) & (way.tour_m[1:] > window_m[0])
-    free = np.ones(len(inside), bool)
-    first, last = (np.flatnonzero(inside)[[0, -1]]) if inside.any() else (0, -1)
-    free[first : last + 1] = sweep.segments_free(way.points[first : last + 2])
     done = []
-    for start, end in colliding_runs(free, way.tour_m, _GAP_M):
-        way, mended = _mend(way, tour, keep_m, sweep, (start, end))
+    for start, end in colliding(way, check, window_m):
+        way, mended = _mend(way, tour, keep_m, check, (start, end))
         done.append(mended)
     return way, done
 
 
 def _mend(
-    way: Way, tour: Polyline, keep_m: NDArray[np.float64], sweep: Sweep, core_m: tuple[float, float]
+    way: Way, tour: Polyline, keep_m: NDArray[np.float64], check: PathCheck, core_m: tuple[float, float]
 ) -> tuple[Way, Mended]:
     start, end = core_m
     planned = _piece(way, tour, keep_m, core_m, 1e-3, _ATTEMPTS[-1])
     inner = (planned.tour_m >= start) & (planned.tour_m <= end)
-    tour_free = bool(sweep.segments_free(planned.points[inner]).all())
+    tour_free = bool(check.segments_free(planned.points[inner]).all())
     for ramp in (*_RAMPS_M, tour.length_m):
         for attempt in _ATTEMPTS:
             piece = _piece(way, tour, keep_m, core_m, ramp, attempt)
-            if sweep.segments_free(piece.points).all():
+            if check.segments_free(piece.points).all():
                 return way.replaced(piece), Mended(start_m=start, end_m=end, free=True, how=attempt.how)
         if not tour_free:
             break
@@ -125,13 +131,37 @@ def _piece(
     """Returns the stretch, drawn towards the tour over its core and going over into the way on both sides."""
     low, high = max(core_m[0] - ramp_m, 0.0), min(core_m[1] + ramp_m, tour.length_m)
     grid = np.linspace(low, high, int(np.ceil((high - low) / _STEP_M)) + 1)
-    marks = np.concatenate([grid, tour.arc_m, way.tour_m, keep_m])
+    beside = _beside(interpolate(grid, way.tour_m, way.points), grid, tour)
+    # The tour's own vertices must be among the points, or corners would be cut.
+    vertices = np.interp(tour.arc_m[(tour.arc_m > beside[0]) & (tour.arc_m < beside[-1])], beside, grid)
+    marks = np.concatenate([grid, vertices, way.tour_m, keep_m])
     arc = np.unique(np.round(marks[(marks >= low) & (marks <= high)], 6))
     # The ends of the tour are ends of the way: there is nothing to go over into.
     rise = (arc - low) / max(core_m[0] - low, 1e-9) if low > 0.0 else np.ones(len(arc))
     fall = (high - arc) / max(high - core_m[1], 1e-9) if high < tour.length_m else np.ones(len(arc))
     u = np.clip(np.minimum(rise, fall), 0.0, 1.0)
     share = attempt.share * (u * u * (3.0 - 2.0 * u))[:, None]
-    target = rounded(arc, tour.arc_m, tour.points, attempt.radius_m) if attempt.radius_m > 0.0 else tour.at(arc)
+    along = np.interp(arc, grid, beside)
+    target = rounded(along, tour.arc_m, tour.points, attempt.radius_m) if attempt.radius_m > 0.0 else tour.at(along)
     own = interpolate(arc, way.tour_m, way.points)
     return Way(points=(1.0 - share) * own + share * target, tour_m=arc)
+
+
+def _beside(points: NDArray[np.float64], arc_m: NDArray[np.float64], tour: Polyline) -> NDArray[np.float64]:
+    """Returns the arc lengths (m,), strictly rising, at which the tour is beside the points of the way.
+
+    The optimiser moves points along the tour, too; a blend of places that are not beside each other would lead
+    through walls.
+    """
+    shifts = np.linspace(-_SHIFT_M, _SHIFT_M, 61)
+    candidates = np.clip(arc_m[:, None] + shifts, 0.0, tour.length_m)
+    places = tour.at(candidates.ravel()).reshape(len(arc_m), -1, 3)
+    square = ((places - points[:, None, :]) ** 2).sum(axis=2) + 0.01 * shifts**2
+    nearest = candidates[np.arange(len(arc_m)), square.argmin(axis=1)]
+    if arc_m[0] <= 0.0:
+        nearest[0] = 0.0
+    if arc_m[-1] >= tour.length_m:
+        nearest[-1] = tour.length_m
+    rising = 0.5 * (np.maximum.accumulate(nearest) + np.minimum.accumulate(nearest[::-1])[::-1])
+    # Where the way turns back before the tour does, many points share a place: a hair apart they stay in order.
+    return np.asarray(rising + 1e-6 * (arc_m - arc_m[0]) / max(arc_m[-1] - arc_m[0], 1e-9))

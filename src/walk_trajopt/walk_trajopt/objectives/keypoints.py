@@ -5,19 +5,28 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from walk_trajopt.objectives.base import QuadraticObjective, Setting
+from walk_trajopt.objectives.base import PointwiseObjective
 
 
-class Keypoints(QuadraticObjective):
-    """Σ_k |x_{i_k} − p_k|², a sum over keypoints and so not multiplied by the spacing; zero on the keypoints. [m²]"""
+class Keypoints(PointwiseObjective):
+    """Σ_k max(|x_{i_k} − p_k| − ρ, 0)², a sum over keypoints and so not multiplied by the spacing. [m²]
 
-    def __init__(self, setting: Setting) -> None:
-        super().__init__(setting)
-        self.target = np.zeros_like(setting.start)
-        self.bands = np.zeros((3, len(setting.start)))
-        # Several keypoints may share a point: their sum is that many times the square around their mean, plus a
-        # constant, which is left out.
-        np.add.at(self.bands[0], setting.keypoint_index, 1.0)
-        np.add.at(self.target, setting.keypoint_index, setting.keypoints)
-        self.target /= np.maximum(self.bands[0], 1.0)[:, None]
+    Zero where each keypoint's point is within the radius ρ of it: a walker need not step on the very spot.
+    """
+
+    def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns the distances beyond ρ and their gradients, over √h since the sum of the base class is times h."""
+        setting = self.setting
+        residual, jacobian = np.zeros(len(x)), np.zeros_like(x)
+        offset = x[setting.keypoint_index] - setting.keypoints
+        distance = np.linalg.norm(offset, axis=1)
+        excess = np.maximum(distance - setting.keypoint_radius_m, 0.0)
+        # Several keypoints may be one point's; the one that is missed the most counts.
+        for k in np.argsort(excess):
+            if excess[k] > 0.0:
+                i = setting.keypoint_index[k]
+                residual[i], jacobian[i] = excess[k], offset[k] / distance[k]
+        scale = 1.0 / np.sqrt(setting.spacing_m)
+        return scale * residual, scale * jacobian

@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The trajectory optimiser as a node: follows the tour, and answers an edit at once on its own copy of it."""
+
+from __future__ import annotations
+
+import dataclasses
+import sys
+from collections import deque
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from walk_building.building import Building
+from walk_building.footing import eye_over_floor
+from walk_ros.conversions import (
+    EditKind,
+    KeypointEdit,
+    LabelledKeypoints,
+    Outcome,
+    Poses,
+    TimedPath,
+    edit_from_msg,
+    edit_result_from_msg,
+    keypoint_markers_from_msg,
+    keypoints_from_msg,
+    tour_from_msg,
+)
+from walk_ros.node import WalkNode
+from walk_ros.results import path_messages
+from walk_ros.runner import run_node
+
+from walk_trajopt.config import TimingConfig, TrajoptConfig
+from walk_trajopt.optimiser import Optimiser
+from walk_trajopt.path import OptimisedPath
+from walk_trajopt.state import State
+from walk_trajopt.targets import look_targets
+from walk_trajopt.timing import time_path
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Plan:
+    """What the sequencer last said: three messages of one revision."""
+
+    stamp_ns: int
+    keypoints: Poses
+    ids: tuple[int, ...]
+    polyline: NDArray[np.float64]
+
+
+class TrajoptNode(WalkNode):
+    """Publishes the optimised path and the trajectory."""
+
+    def __init__(self) -> None:
+        super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
+        self._newest: dict[str, Poses | LabelledKeypoints | TimedPath] = {}
+        self._edits: deque[tuple[KeypointEdit, float]] = deque()
+        self._undo = False
+        self._plan: Plan | None = None
+        self._optimiser: Optimiser | None = None
+        self._settled: State | None = None
+        self._solved_for: tuple[Any, ...] = ()
+        self.offer("path", "trajectory")
+        self.take_in("keypoints", lambda msg: self._store("keypoints", keypoints_from_msg(msg)))
+        self.take_in("keypoint_markers", lambda msg: self._store("keypoint_markers", keypoint_markers_from_msg(msg)))
+        self.take_in("tour", lambda msg: self._store("tour", tour_from_msg(msg)))
+        self.take_in("keypoint_edits", self._store_edit)
+        self.take_in("edit_results", self._store_result)
+        self.start()
+
+    def work(self, building: Building) -> None:
+        """Solves the whole problem where the tour or the settings are new, else only what an edit touches."""
+        plan = self._whole_plan()
+        config = self.parameters.get("trajopt", TrajoptConfig)
+        timing = self.parameters.get("timing", TimingConfig)
+        if plan is None:
+            self.diagnostics.state("waiting", "no tour yet: waiting for keypoints, keypoint_markers and tour")
+            return
+        undo, self._undo = self._undo, False
+        if (plan.stamp_ns, config) != self._solved_for[:2]:
+            self._solve(building, plan, config, timing)
+        elif self._optimiser is not None and (undo or timing != self._solved_for[2]):
+            if undo and self._settled is not None:
+                self._optimiser.state = self._settled
+            self._publish(self._optimiser.path(), timing)
+        self._solved_for = (plan.stamp_ns, config, timing)
+        self._follow_edits(building, plan, timing)
+
+    def forget(self) -> None:
+        """Drops the path through another building; the tour is kept, for the sequencer may have been faster."""
+        self._optimiser, self._solved_for = None, ()
+
+    def fail(self, stamp_ns: int) -> None:
+        """Publishes an empty path and trajectory."""
+        self.publish_all(path_messages(None, stamp_ns))
+
+    def supersedes(self, groups: frozenset[str]) -> bool:
+        """Returns whether a change of these groups makes the running step pointless."""
+        return "trajopt" in groups
+
+    def _whole_plan(self) -> Plan | None:
+        """Returns what the sequencer last said in full: the newest revision of which all three messages are here."""
+        keypoints, markers, tour = (self._newest.get(t) for t in ("keypoints", "keypoint_markers", "tour"))
+        if (
+            isinstance(keypoints, Poses)
+            and isinstance(markers, LabelledKeypoints)
+            and isinstance(tour, TimedPath)
+            and keypoints.stamp_ns == markers.poses.stamp_ns == tour.stamp_ns
+            and len(markers.ids) == len(keypoints.positions)
+        ):
+            self._plan = Plan(stamp_ns=tour.stamp_ns, keypoints=keypoints, ids=markers.ids, polyline=tour.positions)
+        return self._plan
+
+    def _solve(self, building: Building, plan: Plan, config: TrajoptConfig, timing: TimingConfig) -> None:
+        began = self.now_s()
+        self._optimiser = None
+        if len(np.unique(plan.polyline, axis=0)) < 2:
+            self._solved_for = ()
+            self.fail(self.revision())
+            self.diagnostics.state("idle", "the tour has no length: nothing to walk", level="warn", code="empty_tour")
+            return
+        self.diagnostics.state("solving")
+        optimiser = Optimiser(building, plan.polyline, plan.keypoints.positions, config)
+        optimiser.solve()
+        self.worker.progress("trajectory", 0.6)
+        path = optimiser.check()
+        self._optimiser, self._settled = optimiser, optimiser.state
+        self._publish(path, timing)
+        self.diagnostics.note(solve_ms=f"{1e3 * (self.now_s() - began):.1f}")
+
+    def _follow_edits(self, building: Building, plan: Plan, timing: TimingConfig) -> None:
+        """Follows the latest edit of each keypoint; the ones before it are dropped."""
+        latest: dict[int, tuple[KeypointEdit, float]] = {}
+        while self._edits:
+            edit, came_s = self._edits.popleft()
+            if edit.keypoint in latest:
+                self.diagnostics.dropped()
+            latest[edit.keypoint] = (edit, came_s)
+        for edit, came_s in latest.values():
+            if self._optimiser is None or edit.keypoint not in plan.ids:
+                continue
+            outcome = self._optimiser.move_keypoint(
+                plan.ids.index(edit.keypoint), eye_over_floor(building, edit.position)
+            )
+            if outcome.accepted:
+                self._publish(outcome.path, timing)
+                self.diagnostics.latency(self.now_s() - came_s)
+            self.diagnostics.note(last_edit=outcome.reason or f"keypoint {edit.keypoint} followed")
+
+    def _publish(self, path: OptimisedPath, timing: TimingConfig) -> None:
+        assert self._plan is not None and self._optimiser is not None
+        targets = look_targets(self._optimiser.state.keypoints, self._plan.keypoints.quat_xyzw)
+        trajectory = time_path(path, timing, look_at=targets)
+        stamp_ns = self.revision()
+        self.publish_all(path_messages(trajectory, stamp_ns))
+        sentence = f"{path.length_m:.1f} m in {trajectory.duration_s:.0f} s, {len(path.repaired)} stretches repaired"
+        if path.colliding:
+            touching = "; ".join(str(stretch) for stretch in path.colliding)
+            self.diagnostics.state("ready", f"{sentence}; touching: {touching}", level="warn", code="colliding")
+        else:
+            self.diagnostics.state("ready", sentence)
+        status = f"{path.solver}: {path.iterations} iterations, cost {path.total_cost:.4g}"
+        self.diagnostics.note(solver_status=status, revision_ns=stamp_ns, tour_revision_ns=self._plan.stamp_ns)
+
+    def _store(self, topic: str, value: Poses | LabelledKeypoints | TimedPath) -> None:
+        self._newest[topic] = value
+        self.worker.wake()
+
+    def _store_edit(self, msg: Any) -> None:
+        edit = edit_from_msg(msg)
+        if edit.kind in (EditKind.DRAG, EditKind.RELEASE):
+            self._edits.append((edit, self.now_s()))
+            self.worker.wake()
+
+    def _store_result(self, msg: Any) -> None:
+        # What the authority refuses is taken back: the path goes through its keypoints again.
+        if edit_result_from_msg(msg).outcome is Outcome.REFUSED:
+            self._undo = True
+            self.worker.wake()
+
+
+def main() -> int:
+    """Runs the node; returns the exit code."""
+    return run_node(TrajoptNode)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

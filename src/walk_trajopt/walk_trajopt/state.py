@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The state of an optimiser, and how a moved keypoint bends it before it is optimised again."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_trajopt.polyline import Polyline, interpolate
+from walk_trajopt.repair import Mended, Way
+from walk_trajopt.resample import resample
+
+_UNEVEN = 1.5  # a leg whose points are so much farther apart, or nearer, than the mean gets another number of them
+_VERTEX_M = 0.25  # between the vertices of a bent leg, so that each can find its own floor
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class State:
+    """One solved problem. Never changed: an edit makes a new one, and undo takes the old one back.
+
+    Attributes:
+        tour: The planned polyline; its parameter is arc length until an edit bends it.
+        keypoints: (M, 3) [m].
+        keypoint_m: (M,) parameter of the tour at each keypoint.
+        keypoint_index: (M,) the point that is each keypoint's.
+        start: (n, 3) the points on the tour, x⁰.
+        arc_m: (n,) parameter of the tour at each point.
+        x: (n, 3) the optimised points.
+        way: The checked curve through them.
+        mended: What the repair did.
+    """
+
+    tour: Polyline
+    keypoints: NDArray[np.float64]
+    keypoint_m: NDArray[np.float64]
+    keypoint_index: NDArray[np.int64]
+    start: NDArray[np.float64]
+    arc_m: NDArray[np.float64]
+    x: NDArray[np.float64]
+    way: Way
+    mended: tuple[Mended, ...]
+
+    def window(self, keypoint: int) -> tuple[int, int]:
+        """Returns the first and the last point of the legs beside a keypoint."""
+        first = int(self.keypoint_index[keypoint - 1]) if keypoint > 0 else 0
+        last = int(self.keypoint_index[keypoint + 1]) if keypoint + 1 < len(self.keypoints) else len(self.x) - 1
+        return first, last
+
+
+def initial_state(
+    tour: Polyline, keypoints: NDArray[np.float64], keypoint_m: NDArray[np.float64], n: int
+) -> State:
+    """Returns the state whose points are on the tour itself."""
+    samples = resample(tour, keypoint_m, n)
+    return State(
+        tour=tour,
+        keypoints=keypoints,
+        keypoint_m=keypoint_m,
+        keypoint_index=samples.keypoint_index,
+        start=samples.points,
+        arc_m=samples.arc_m,
+        x=samples.points,
+        way=Way(points=samples.points, tour_m=samples.arc_m),
+        mended=(),
+    )
+
+
+def bent(
+    state: State,
+    keypoint: int,
+    position: NDArray[np.float64],
+    legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
+    spacing_m: float,
+) -> State:
+    """Returns the state with one keypoint moved and the legs beside it bent, or replaced by newly planned ones.
+
+    A leg is bent by moving its points along, fully at the keypoint and not at all at its other end; so are the
+    optimised points, from where the optimiser then goes on.
+    """
+    first, last = state.window(keypoint)
+    low, here, high = state.arc_m[first], state.keypoint_m[keypoint], state.arc_m[last]
+    shift = position - state.keypoints[keypoint]
+    tour = _bent_tour(state, (low, here, high), position, shift, legs)
+    inner = (tour.arc_m >= low) & (tour.arc_m <= high)
+    arc = _arcs(Polyline(tour.points[inner], tour.arc_m[inner]), here, state.arc_m[first : last + 1], spacing_m)
+    replanned = any(leg is not None for leg in legs)
+    if replanned:
+        x = tour.at(arc)
+        x[[0, -1]] = np.where(np.array([[low < here], [high > here]]), state.x[[first, last]], position)
+    else:
+        x = interpolate(arc, state.arc_m, state.x) + _hat(arc, low, here, high)[:, None] * shift
+    added = len(arc) - (last + 1 - first)
+    index = state.keypoint_index + np.where(np.arange(len(state.keypoints)) > keypoint, added, 0)
+    index[keypoint] = first + int(np.abs(arc - here).argmin())
+    keypoints = state.keypoints.copy()
+    keypoints[keypoint] = position
+
+    def spliced(old: NDArray[np.float64], new: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.concatenate([old[:first], new, old[last + 1 :]])
+
+    return dataclasses.replace(
+        state,
+        tour=tour,
+        keypoints=keypoints,
+        keypoint_index=index,
+        start=spliced(state.start, tour.at(arc)),
+        arc_m=spliced(state.arc_m, arc),
+        x=spliced(state.x, x),
+    )
+
+
+def _hat(arc: NDArray[np.float64], low: float, here: float, high: float) -> NDArray[np.float64]:
+    """Returns 1 at `here`, falling to 0 at `low` and `high`; 1 on a side that has no length."""
+    rise = (arc - low) / (here - low) if here > low else np.ones(len(arc))
+    fall = (high - arc) / (high - here) if high > here else np.ones(len(arc))
+    return np.asarray(np.clip(np.where(arc <= here, rise, fall), 0.0, 1.0))
+
+
+def _bent_tour(
+    state: State,
+    window: tuple[float, float, float],
+    position: NDArray[np.float64],
+    shift: NDArray[np.float64],
+    legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
+) -> Polyline:
+    low, here, high = window
+    tour = state.tour
+    pieces = [(tour.arc_m[tour.arc_m < low], tour.points[tour.arc_m < low])]
+    for leg, (a, b) in zip(legs, ((low, here), (here, high)), strict=True):
+        if b - a < 1e-9:
+            continue
+        if leg is not None:
+            line = Polyline(leg)
+            pieces.append((a + (b - a) * line.arc_m / max(line.length_m, 1e-9), line.points))
+            continue
+        own = tour.arc_m[(tour.arc_m > a) & (tour.arc_m < b)]
+        arc = np.unique(np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / _VERTEX_M)) + 1), own]))
+        pieces.append((arc, tour.at(arc) + _hat(arc, low, here, high)[:, None] * shift))
+    pieces.append((tour.arc_m[tour.arc_m > high], tour.points[tour.arc_m > high]))
+    arc = np.concatenate([p[0] for p in pieces])
+    rising = np.concatenate([[True], np.diff(arc) > 1e-9])
+    return Polyline(np.concatenate([p[1] for p in pieces])[rising], arc[rising])
+
+
+def _arcs(piece: Polyline, here: float, old: NDArray[np.float64], spacing_m: float) -> NDArray[np.float64]:
+    """Returns the parameters of the window's points: the old ones, unless a leg has become much longer or shorter."""
+    sides = []
+    for a, b in ((old[0], here), (here, old[-1])):
+        if b - a < 1e-9:
+            continue
+        own = old[(old >= a - 1e-9) & (old <= b + 1e-9)]
+        arc = np.unique(np.concatenate([[a, b], piece.arc_m[(piece.arc_m > a) & (piece.arc_m < b)]]))
+        length = float(np.linalg.norm(np.diff(piece.at(arc), axis=0), axis=1).sum())
+        spacing = length / (len(own) - 1)
+        if not spacing_m / _UNEVEN <= spacing <= spacing_m * _UNEVEN:
+            own = np.linspace(a, b, max(int(round(length / spacing_m)), 1) + 1)
+        sides.append(own)
+    return sides[0] if len(sides) == 1 else np.concatenate([sides[0], sides[1][1:]])
