@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
+
 from walk_bag import BagError, BagTopic, BagWriter, read_bag, write_walkthrough_bag
 from walk_bag.storage import read_topics
 from walk_bag.walkthrough import bag_topic, walkthrough_messages
@@ -76,10 +77,10 @@ def test_another_library_reads_the_same_numbers(tmp_path, results):
         seen = {}
         for connection, stamp, data in reader.messages():
             seen.setdefault(connection.topic, []).append((stamp, reader.deserialize(data, connection.msgtype)))
-    (_, trajectory), = seen["/walk/trajectory"]
+    ((_, trajectory),) = seen["/walk/trajectory"]
     got = [[getattr(p.transforms[0].translation, a) for a in "xyz"] for p in trajectory.points]
     np.testing.assert_array_equal(got, results["trajectory"].positions)
-    (_, cloud), = seen["/walk/importance_map"]
+    ((_, cloud),) = seen["/walk/importance_map"]
     table = np.frombuffer(cloud.data.tobytes(), np.float32).reshape(-1, 7)
     np.testing.assert_array_equal(table[:, 6], results["importance_map"].importance.ravel(order="F"))
     assert len(seen["/walk/importance_map/storeys"]) == 2

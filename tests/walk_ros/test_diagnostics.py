@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticStatus
+
 from walk_building.errors import BuildingError
 from walk_ros.conversions import stamp_from_msg
 from walk_ros.diagnostics import Diagnostics, diagnostic_values, error_code

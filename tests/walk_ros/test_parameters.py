@@ -9,6 +9,7 @@ import rclpy
 from rcl_interfaces.msg import ParameterType
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.parameter import Parameter
+
 from walk_building.config import Config, param
 from walk_building.errors import ParameterError
 from walk_building.walker import Walker

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from sensor_msgs.msg import PointField
+
 from walk_ros import conversions as c
 from walk_ros.conversions.paths import headings
 from walk_ros.raw import from_bytes, to_bytes

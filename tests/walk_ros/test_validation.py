@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from std_msgs.msg import Header
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
+
 from walk_ros import conversions as c
 from walk_ros.errors import MessageError
 
@@ -20,9 +21,7 @@ FEW = settings(max_examples=60, deadline=None, suppress_health_check=[HealthChec
 
 
 def pose(x=0.0, y=0.0, z=0.0, quat=(0.0, 0.0, 0.0, 1.0)):
-    return Pose(
-        position=Point(x=x, y=y, z=z), orientation=Quaternion(x=quat[0], y=quat[1], z=quat[2], w=quat[3])
-    )
+    return Pose(position=Point(x=x, y=y, z=z), orientation=Quaternion(x=quat[0], y=quat[1], z=quat[2], w=quat[3]))
 
 
 @FEW

@@ -3,6 +3,7 @@
 import threading
 
 import pytest
+
 from walk_ros.worker import Superseded, Worker
 
 LIMIT_S = 10.0

@@ -14,6 +14,7 @@ from walk_building.building import Building
 from walk_building.footing import eye_over_floor, room_name
 from walk_building.progress import Progress, no_progress
 from walk_sequencer.config import SequencerConfig
+from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal
 from walk_sequencer.keypoints import Keypoints, changed, move_entry, order_entry, suggested_entry
 from walk_sequencer.pipeline import plan_tour
@@ -28,7 +29,6 @@ class Planned:
 
     keypoints: Keypoints
     tour: Tour
-    eyes: NDArray[np.float64]  # (K, 3) where the walker's eye is at each; as wished where it cannot stand there
     labels: tuple[str, ...]  # (K,)
 
 
@@ -68,6 +68,7 @@ class Authority:
         quat_xyzw: NDArray[np.float64],
         client_id: str,
         config: SequencerConfig,
+        editing: EditingConfig,
     ) -> str:
         """Moves a keypoint to the floor below a position and plans again; returns why not, "" if it is done."""
         if self.keypoints.index(identity) < 0:
@@ -78,6 +79,9 @@ class Authority:
         reasons = [left.reason for left in planned.tour.unreachable if left.index == row]
         if reasons:
             return reasons[0]
+        pulled = float(np.linalg.norm(planned.tour.stands[row, :2] - planned.keypoints.positions[row, :2]))
+        if pulled > editing.pull_m:
+            return f"no room for the walker's body there: the nearest place to stand on is {pulled:.2f} m away"
         self._journal.append(entry)
         self._confirm(planned)
         return ""
@@ -98,7 +102,7 @@ class Authority:
         stands = np.isfinite(tour.stands).all(axis=1)
         eyes = np.where(np.asarray(stands)[:, None], tour.stands, ordered.positions)
         labels = tuple(room_name(self._building, eye) for eye in eyes)
-        return Planned(keypoints=ordered, tour=tour, eyes=eyes, labels=labels)
+        return Planned(keypoints=ordered, tour=tour, labels=labels)
 
     def _confirm(self, planned: Planned) -> None:
         """Makes a plan the current one and keeps its order."""

@@ -24,12 +24,13 @@ from walk_ros.conversions import (
     keypoints_from_msg,
 )
 from walk_ros.errors import MessageError
+from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS, tour_messages
 from walk_ros.runner import run_node
 from walk_sequencer.authority import Authority
 from walk_sequencer.config import SequencerConfig
-from walk_sequencer.holds import EditingConfig, Holds
+from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal, default_state_dir
 
 
@@ -94,7 +95,7 @@ class SequencerNode(WalkNode):
 
     def _open(self, building: Building) -> Authority:
         journal = Journal(Path(str(self.get_parameter("state_dir").value)), building.hash)
-        if not self.parameters.get("editing", EditingConfig).restore:
+        if not self._editing().restore:
             journal.put_aside()
         self._authority = Authority(building, journal)
         self._holds = Holds()
@@ -112,7 +113,9 @@ class SequencerNode(WalkNode):
             self._holds.release(edit.keypoint, edit.client_id)
             outcome = Outcome.ACCEPTED
             try:
-                reason = authority.move(edit.keypoint, edit.position, edit.quat_xyzw, edit.client_id, config)
+                reason = authority.move(
+                    edit.keypoint, edit.position, edit.quat_xyzw, edit.client_id, config, self._editing()
+                )
             except WalkError as error:
                 self.get_logger().error(str(error))
                 reason = str(error)
@@ -121,9 +124,11 @@ class SequencerNode(WalkNode):
                 self.diagnostics.latency(self.now_s() - came_s)
         self._reply(str(edit.keypoint), edit, Outcome.REFUSED if reason else outcome, reason)
 
+    def _editing(self) -> EditingConfig:
+        return self.parameters.get("editing", EditingConfig)
+
     def _take(self, edit: KeypointEdit) -> str:
-        timeout_s = self.parameters.get("editing", EditingConfig).hold_timeout_s
-        holder = self._holds.take(edit.keypoint, edit.client_id, self.now_s(), timeout_s)
+        holder = self._holds.take(edit.keypoint, edit.client_id, self.now_s())
         return f"keypoint {edit.keypoint} is held by {holder!r}" if holder else ""
 
     def _publish(self, authority: Authority) -> None:
@@ -134,7 +139,7 @@ class SequencerNode(WalkNode):
         gone = sorted(self._shown - set(keypoints.ids))
         self._shown = set(keypoints.ids)
         stamp = self._revision_ns
-        rows = (planned.eyes, keypoints.quat_xyzw, keypoints.ids, planned.labels)
+        rows = (keypoints.positions, keypoints.quat_xyzw, keypoints.ids, planned.labels)
         self.publish_all(tour_messages(tour, *rows, stamp, gone))
         left = len(tour.unreachable)
         sentence = f"{len(tour.order)} keypoints in {tour.length_m:.1f} m" + (f", {left} unreachable" if left else "")

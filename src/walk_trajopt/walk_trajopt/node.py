@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
 from walk_building.building import Building
 from walk_building.footing import eye_over_floor
 from walk_ros.conversions import (
@@ -26,10 +27,10 @@ from walk_ros.conversions import (
     keypoints_from_msg,
     tour_from_msg,
 )
+from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
 from walk_ros.results import path_messages
 from walk_ros.runner import run_node
-
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.optimiser import Optimiser
 from walk_trajopt.path import OptimisedPath
@@ -55,6 +56,8 @@ class TrajoptNode(WalkNode):
         super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
         self._newest: dict[str, Poses | LabelledKeypoints | TimedPath] = {}
         self._edits: deque[tuple[KeypointEdit, float]] = deque()
+        self._holds = Holds()
+        self._followed: dict[int, str] = {}
         self._undo = False
         self._plan: Plan | None = None
         self._optimiser: Optimiser | None = None
@@ -168,13 +171,21 @@ class TrajoptNode(WalkNode):
 
     def _store_edit(self, msg: Any) -> None:
         edit = edit_from_msg(msg)
+        # The sequencer refuses an edit of what another editor holds; it is not followed here either.
+        if self._holds.take(edit.keypoint, edit.client_id, self.now_s()):
+            return
+        if edit.kind is EditKind.RELEASE:
+            self._holds.release(edit.keypoint, edit.client_id)
         if edit.kind in (EditKind.DRAG, EditKind.RELEASE):
+            self._followed[edit.keypoint] = edit.client_id
             self._edits.append((edit, self.now_s()))
             self.worker.wake()
 
     def _store_result(self, msg: Any) -> None:
+        result = edit_result_from_msg(msg)
+        refused = result.outcome is Outcome.REFUSED and result.keypoint.isdigit()
         # What the authority refuses is taken back: the path goes through its keypoints again.
-        if edit_result_from_msg(msg).outcome is Outcome.REFUSED:
+        if refused and self._followed.pop(int(result.keypoint), None) == result.client_id:
             self._undo = True
             self.worker.wake()
 

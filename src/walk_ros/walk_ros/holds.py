@@ -4,21 +4,8 @@
 
 from __future__ import annotations
 
-import dataclasses
-
-from walk_building.config import Config, param
-
-
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class EditingConfig(Config):
-    """How edits are taken."""
-
-    hold_timeout_s: float = param(
-        10.0, "a keypoint whose editor is silent for so long is free again", unit="s", low=0.1, high=3600.0
-    )
-    restore: bool = param(
-        True, "begin with the keypoints in the journal of this building; false puts the journal aside at the next load"
-    )
+HOLD_TIMEOUT_S = 10.0
+"""An editor that is silent for so long has lost its keypoint: ten times what an interactive marker's keep-alive takes."""
 
 
 class Holds:
@@ -27,7 +14,7 @@ class Holds:
     def __init__(self) -> None:
         self._held: dict[int, tuple[str, float]] = {}
 
-    def take(self, keypoint: int, client_id: str, now_s: float, timeout_s: float) -> str:
+    def take(self, keypoint: int, client_id: str, now_s: float, timeout_s: float = HOLD_TIMEOUT_S) -> str:
         """Gives the keypoint to the editor, or keeps it there; returns who else holds it, "" if it is theirs now."""
         holder, since_s = self._held.get(keypoint, (client_id, now_s))
         if holder != client_id and now_s - since_s <= timeout_s:
