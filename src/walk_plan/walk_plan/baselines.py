@@ -42,7 +42,7 @@ def baselines(building: Building, suggestion: Suggestion, tour: Tour, config: Pl
     """
     walks = []
     if len(tour.order) >= 2:
-        walks.append(_spline(suggestion, tour, config))
+        walks.append(_spline(building, suggestion, tour, config))
         walks.append(_mst_dfs(building, suggestion, tour, config))
     straight = rooms_and_doors(building)
     if straight is not None:
@@ -57,8 +57,8 @@ def look_targets(suggestion: Suggestion, stands: NDArray[np.float64], order: NDA
     return np.asarray(stands[order] + LOOK_DISTANCE_M * ahead)
 
 
-def _spline(suggestion: Suggestion, tour: Tour, config: PlanConfig) -> Walk:
-    path = spline_path(tour.stands[tour.order])
+def _spline(building: Building, suggestion: Suggestion, tour: Tour, config: PlanConfig) -> Walk:
+    path = spline_path(building, tour.stands[tour.order], config.trajectory)
     trajectory = time_path(path, config.timing, look_targets(suggestion, tour.stands, tour.order))
     return Walk(name="spline", path=path.points, trajectory=trajectory)
 

@@ -4,12 +4,17 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.image import AxesImage
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation, binary_fill_holes
 
 from walk_building.building import Building
+from walk_importance.grid import VoxelGrid
 from walk_importance.importance_map import ImportanceMap
 from walk_plan.drawing import style
 from walk_plan.drawing.floor import storey_bounds
@@ -19,7 +24,7 @@ from walk_plan.walkthrough import Walkthrough
 _COLUMNS = ("Obstacles", "Distance to the nearest obstacle", "Openness: share of the space in view", "Importance")
 _GAP_IN, _HEAD_IN, _FOOT_IN, _NAME_IN = 0.1, 0.28, 0.5, 0.2
 _MAX_PANEL_IN = 3.4
-_WALL = (0.22, 0.25, 0.28, 1.0)
+_WALL_M = 0.6  # how far from where one can stand a wall or a corner may be to be shown
 
 
 def draw_maps(walkthrough: Walkthrough, storeys: list[int]) -> Figure:
@@ -33,12 +38,13 @@ def draw_maps(walkthrough: Walkthrough, storeys: list[int]) -> Figure:
     row = tall + _NAME_IN
     height = _HEAD_IN + row * len(storeys) + _FOOT_IN
     made = style.figure(style.WIDTH_IN, height)
-    scales = _scales(walkthrough.importance_map, building, storeys)
+    layers = [_layers(walkthrough.importance_map, building, storey) for storey in storeys]
+    scales = _scales(layers)
     for r, storey in enumerate(storeys):
         for c, title in enumerate(_COLUMNS):
             bottom = height - _HEAD_IN - (r + 1) * row
             axes = made.add_axes((c * (panel + _GAP_IN) / style.WIDTH_IN, bottom / height, panel / style.WIDTH_IN, tall / height))
-            image = _draw_map(axes, walkthrough.importance_map, building, storey, c, scales[c])
+            image = _draw_map(axes, walkthrough.importance_map.grid, layers[r], c, scales[c])
             style.plain_map(axes, low, high)
             if c == 3:
                 _draw_keypoints(axes, walkthrough, storey)
@@ -59,36 +65,63 @@ def slice_index(importance_map: ImportanceMap, z_m: float) -> int:
     return int(np.clip(np.floor((z_m - grid.origin[2]) / grid.voxel_size_m), 0, grid.shape[2] - 1))
 
 
-def _layers(importance_map: ImportanceMap, building: Building, storey: int) -> tuple[NDArray[np.float32], ...]:
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class _Layers:
+    """One storey's layer of each map, at the height of the eye; (nx, ny) each."""
+
+    solid: NDArray[np.bool_]
+    outside: NDArray[np.bool_]  # nothing to do with the storey's floor: left blank
+    values: tuple[NDArray[np.float32], ...]  # distance, visibility, importance
+
+
+def _layers(importance_map: ImportanceMap, building: Building, storey: int) -> _Layers:
     k = slice_index(importance_map, building.storeys[storey].elevation_m + building.walker.eye_height_m)
-    four = (importance_map.obstacle, importance_map.distance, importance_map.visibility, importance_map.importance)
-    return tuple(layer[:, :, k] for layer in four)
+    values = (importance_map.distance, importance_map.visibility, importance_map.importance)
+    return _Layers(
+        solid=importance_map.obstacle[:, :, k] > 0.0,
+        outside=~_over_floor(importance_map, building, storey),
+        values=tuple(layer[:, :, k] for layer in values),
+    )
 
 
-def _scales(importance_map: ImportanceMap, building: Building, storeys: list[int]) -> list[tuple[float, float]]:
-    layers = [_layers(importance_map, building, storey) for storey in storeys]
-    scales = []
-    for c in range(4):
-        values = np.concatenate([four[c][four[0] == 0.0] for four in layers])
-        low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
-        scales.append((low if c == 3 else 0.0, max(high, low + 1e-6)))
+def _over_floor(importance_map: ImportanceMap, building: Building, storey: int) -> NDArray[np.bool_]:
+    """Which columns of voxels stand over the storey's floor, over its walls, or over furniture in its middle."""
+    surface, grid = building.surface, importance_map.grid
+    here = surface.places[(surface.storey == storey) & (surface.indoor | building.reachable)]
+    inside = np.zeros(grid.shape[:2], bool)
+    inside[tuple(grid.indices(here)[:, :2].T)] = True
+    reach = int(np.ceil(_WALL_M / grid.voxel_size_m))
+    return np.asarray(binary_fill_holes(binary_dilation(inside, iterations=reach)))
+
+
+def _scales(layers: list[_Layers]) -> list[tuple[float, float]]:
+    """Returns the range of each map over what is shown, obstacles left out: (0, 1) first, for the obstacles."""
+    scales = [(0.0, 1.0)]
+    for which in range(3):
+        shown = np.concatenate([layer.values[which][~layer.solid & ~layer.outside] for layer in layers])
+        low, high = (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
+        low = low if which == 2 else 0.0
+        scales.append((low, max(high, low + 1e-6)))
     return scales
 
 
-def _draw_map(
-    axes: Axes, importance_map: ImportanceMap, building: Building, storey: int, which: int, scale: tuple[float, float]
-) -> object:
-    grid = importance_map.grid
-    layers = _layers(importance_map, building, storey)
-    solid = layers[0] > 0.0
-    values = np.ma.masked_where(solid, layers[which])
-    colours = style.MAP.with_extremes(bad=_WALL)
-    x, y = grid.origin[:2]
-    extent = (x, x + grid.shape[0] * grid.voxel_size_m, y, y + grid.shape[1] * grid.voxel_size_m)
-    shown = {"origin": "lower", "extent": extent, "interpolation": "nearest"}
+def _draw_map(axes: Axes, grid: VoxelGrid, layers: _Layers, which: int, scale: tuple[float, float]) -> AxesImage:
     if which == 0:
-        return axes.imshow(solid.T, cmap=style.SOLID, vmin=0.0, vmax=1.0, **shown)  # type: ignore[arg-type]
-    return axes.imshow(values.T, cmap=colours, vmin=scale[0], vmax=scale[1], **shown)  # type: ignore[arg-type]
+        shown, colours = np.ma.masked_where(layers.outside & ~layers.solid, layers.solid), style.SOLID
+    else:
+        shown = np.ma.masked_where(layers.outside | layers.solid, layers.values[which - 1])
+        colours = style.MAP.with_extremes(bad=(1.0, 1.0, 1.0, 0.0))
+        walls = np.ma.masked_where(~layers.solid, layers.solid)
+        axes.imshow(walls.T, cmap=style.WALLS, origin="lower", extent=_extent(grid), interpolation="nearest")
+    return axes.imshow(
+        shown.T, cmap=colours, vmin=scale[0], vmax=scale[1], origin="lower", extent=_extent(grid),
+        interpolation="nearest",
+    )  # fmt: skip
+
+
+def _extent(grid: VoxelGrid) -> tuple[float, float, float, float]:
+    x, y = grid.origin[:2]
+    return (x, x + grid.shape[0] * grid.voxel_size_m, y, y + grid.shape[1] * grid.voxel_size_m)
 
 
 def _draw_keypoints(axes: Axes, walkthrough: Walkthrough, storey: int) -> None:
@@ -100,13 +133,13 @@ def _draw_keypoints(axes: Axes, walkthrough: Walkthrough, storey: int) -> None:
     )  # fmt: skip
 
 
-def _draw_scale(made: Figure, image: object, which: int, left: float, panel: float, height: float) -> None:
+def _draw_scale(made: Figure, image: AxesImage, which: int, left: float, panel: float, height: float) -> None:
     bar = made.add_axes(((left + 0.2 * panel) / style.WIDTH_IN, 0.26 / height, 0.6 * panel / style.WIDTH_IN, 0.08 / height))
-    colours = made.colorbar(image, cax=bar, orientation="horizontal")  # type: ignore[arg-type]
+    colours = made.colorbar(image, cax=bar, orientation="horizontal")
     if which == 0:
         colours.set_ticks([0.25, 0.75], labels=["free", "solid"])
     else:
-        low, high = image.get_clim()  # type: ignore[attr-defined]
+        low, high = image.get_clim()
         words = ("none", "far") if which == 1 else (f"{100 * low:.0f} %", f"{100 * high:.0f} %") if which == 2 else ("low", "high")
         colours.set_ticks([low, high], labels=words)
     colours.outline.set_linewidth(0.4)  # type: ignore[operator]

@@ -78,7 +78,7 @@ def _mark_keypoints(axes: list[Axes], walkthrough: Walkthrough) -> None:
         for x in at:
             panel.axvline(x, color=style.HAIR, linewidth=0.5, zorder=0)
     # Numbers only where there is room for them, else a long tour's would run into each other.
-    room = 0.014 * max(float(profile.walked_m[-1]), 1.0)
+    room = 0.018 * max(float(profile.walked_m[-1]), 1.0)
     last = -np.inf
     for number, x in enumerate(at, start=1):
         if x - last >= room:

@@ -28,7 +28,8 @@ OPEN_FLOOR = "#e9ebee"
 CLEARANCE = LinearSegmentedColormap.from_list("clearance", ["#d55e00", "#e8963c", "#56a0d3", "#0a3d7a"])
 CLEARANCE_FULL_M = 1.0
 MAP = matplotlib.colormaps["cividis"]
-SOLID = ListedColormap(["#f4f5f7", "#384048"])
+SOLID = ListedColormap(["#f0f2f4", "#384048"])
+WALLS = ListedColormap(["#aab2ba"])
 
 SMALL_PT, NORMAL_PT = 7.0, 8.5
 WIDTH_IN = 10.4  # of a full-width picture
