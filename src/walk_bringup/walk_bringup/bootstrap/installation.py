@@ -62,7 +62,7 @@ def install(layout: Layout, machine: Machine) -> None:
             layout.state / "install.log",
             cwd=layout.root,
             env=env,
-            on_line=_counter(layout, line),
+            on_line=_counter(line),
             explain=explain,
         )
         _try_imports(layout, env)
@@ -81,7 +81,7 @@ def explain(output: str) -> str:
     return f"pip could not install the requirements: {errors[-1][7:] if errors else last_line(output)}"
 
 
-def _counter(layout: Layout, line: StageLine) -> Callable[[str], None]:
+def _counter(line: StageLine) -> Callable[[str], None]:
     seen = 0
 
     def on_line(text: str) -> None:

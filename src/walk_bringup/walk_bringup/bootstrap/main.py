@@ -45,7 +45,7 @@ def _run(arguments: list[str]) -> int:
         return 0
     sys.stdout.flush()
     env = built_environment(layout, os.environ)
-    os.execve(layout.python, [str(layout.python), "-m", "walk_bringup.cli", *arguments], env)
+    return os.execve(layout.python, [str(layout.python), "-m", "walk_bringup.cli", *arguments], env)
 
 
 def unknown_command(command: str) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import sys
 import time
 from types import TracebackType
-from typing import TextIO
+from typing import Self, TextIO
 
 _WIDTH = 24
 
@@ -23,7 +23,7 @@ class StageLine:
         self._started = time.monotonic()
         self._shown = 0.0
 
-    def __enter__(self) -> StageLine:
+    def __enter__(self) -> Self:
         """Starts the clock and says what begins."""
         self._started = time.monotonic()
         if not self._live:

@@ -42,4 +42,4 @@ def _hand_over(name: str, arguments: tuple[str, ...]) -> int:
         code = subprocess.run([path, "--help"]).returncode
         print("\nexamples:", *_EXAMPLES[name], sep="\n  ")
         return code
-    os.execv(path, [str(path), *arguments])
+    return os.execv(path, [str(path), *arguments])

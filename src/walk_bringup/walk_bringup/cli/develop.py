@@ -39,7 +39,7 @@ def test(arguments: tuple[str, ...]) -> int:
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.chdir(root)
     sys.stdout.flush()
-    os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
+    return os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
 
 
 @click.command(short_help=COMMANDS["check"])

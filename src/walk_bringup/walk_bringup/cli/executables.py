@@ -7,10 +7,10 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from walk_building.errors import WalkError
+from walk_bringup.bootstrap.errors import SetupError
 
 
-class ExecutableError(WalkError):
+class ExecutableError(SetupError):
     """An executable that no package has.
 
     Attributes:

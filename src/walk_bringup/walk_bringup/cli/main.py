@@ -32,11 +32,11 @@ _MODULES = {
 class LazyGroup(click.Group):
     """A group whose commands are the functions of the same names in the modules of this package."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002  (click calls it so)
         """Returns the names of the commands."""
         return list(COMMANDS)
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002  (click calls it so)
         """Returns a command after importing its module."""
         if cmd_name not in _MODULES:
             return None
@@ -45,7 +45,7 @@ class LazyGroup(click.Group):
         assert isinstance(command, click.Command)
         return command
 
-    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:  # noqa: ARG002  (click calls it so)
         """Writes the same text that `./walk --help` shows before the set-up."""
         formatter.write(overview())
 
@@ -80,13 +80,16 @@ def main(arguments: list[str] | None = None) -> int:
     except SetupError as error:
         return _refuse(str(error))
     except Exception as error:
-        # Imported late: most calls end without an error.
-        from walk_building.errors import WalkError
-
-        if isinstance(error, WalkError):
+        if _is_walk_error(error):
             return _refuse(str(error))
         raise
     return result if isinstance(result, int) else 0
+
+
+def _is_walk_error(error: Exception) -> bool:
+    # Only what is imported can raise it, and importing it for the question would take a second.
+    errors = sys.modules.get("walk_building.errors")
+    return errors is not None and isinstance(error, errors.WalkError)
 
 
 def _sentence(error: click.ClickException) -> str:

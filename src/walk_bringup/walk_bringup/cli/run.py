@@ -35,4 +35,4 @@ def run(package: str | None, executable: str | None, arguments: tuple[str, ...])
         return 0
     path = find_executable(package, executable or "")
     sys.stdout.flush()
-    os.execv(path, [str(path), *arguments])
+    return os.execv(path, [str(path), *arguments])

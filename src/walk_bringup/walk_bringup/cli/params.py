@@ -1,0 +1,28 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk params`: every parameter of the nodes."""
+
+from __future__ import annotations
+
+import click
+
+from walk_bringup.bootstrap.commands import COMMANDS
+
+
+@click.command(short_help=COMMANDS["params"])
+def params() -> int:
+    """Print all parameters of the nodes with defaults, units and ranges as YAML.
+
+    The output is what src/walk_bringup/config/walk.yaml holds; a copy of it is a file for --params-file.
+
+    \b
+    Examples:
+      ./walk params
+      ./walk params > my.yaml
+      ./walk up --params-file my.yaml
+    """
+    # Imported here: the configs bring all of the cores with them.
+    from walk_bringup.parameters import parameters_yaml
+
+    print(parameters_yaml(), end="")
+    return 0

@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk plan`: the whole method once; its options are the fields of the stages' configs."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    Progress,
+    TaskID,
+    TaskProgressColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+from walk_bringup.bootstrap.commands import COMMANDS
+from walk_building.progress import no_progress
+from walk_plan.options import PlanOption, plan_config, plan_options
+from walk_plan.pipeline import plan_walkthrough
+from walk_plan.stages import STAGES
+from walk_plan.walkthrough import Walkthrough
+
+_ALIASES = {"units-m": "--units", "count": "--keypoints", "voxel-size-m": "--voxel-size"}
+"""Names that are handier than those of the fields."""
+
+
+class SectionedCommand(click.Command):
+    """A command whose help groups the options by the stage they belong to."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Writes one list of options per stage."""
+        sections: dict[str, list[tuple[str, str]]] = {}
+        for parameter in self.get_params(ctx):
+            record = parameter.get_help_record(ctx)
+            if record is not None:
+                section = getattr(parameter, "section", "Options")
+                sections.setdefault(section, []).append(record)
+        for name, records in sections.items():
+            with formatter.section(name):
+                formatter.write_dl(records)
+
+
+class PlanClickOption(click.Option):
+    """An option of the command line for one field of a config."""
+
+    def __init__(self, option: PlanOption) -> None:
+        names = [f"--{option.name}"]
+        kind: Any = type(option.field.default)
+        if kind is bool:
+            names = [f"--{option.name}/--no-{option.name}"]
+        elif option.field.metadata["choices"]:
+            kind = click.Choice(option.field.metadata["choices"])
+        if option.name in _ALIASES:
+            names.append(_ALIASES[option.name])
+        self.section = f"Options of the stage '{option.section}'"
+        self.field_name = option.name
+        help_text = f"{option.help} (default: {_shown(option.field.default)})"
+        super().__init__([*names, _variable(option)], type=kind, default=None, help=help_text)
+
+
+def _shown(default: Any) -> str:
+    if isinstance(default, bool):
+        return "yes" if default else "no"
+    return f"{default:g}" if isinstance(default, float) else str(default) or "none"
+
+
+def _variable(option: PlanOption) -> str:
+    return option.name.replace("-", "_")
+
+
+def _with_plan_options(command: click.Command) -> click.Command:
+    command.params.extend(PlanClickOption(option) for option in plan_options())
+    return command
+
+
+@_with_plan_options
+@click.command(cls=SectionedCommand, short_help=COMMANDS["plan"])
+@click.argument("building", type=click.Path(path_type=Path))
+@click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder for the results.")
+@click.option("--quiet", is_flag=True, help="Show no progress.")
+def plan(building: Path, out: Path, quiet: bool, **values: Any) -> int:
+    """Turn BUILDING into a collision-free, timed, recorded walkthrough.
+
+    Writes tour.mcap, report.json, report.html, trajectory.csv and walkthrough.glb.
+
+    \b
+    Examples:
+      ./walk plan building.ifc --out out/building
+      ./walk plan house.obj --units 0.001 --up y --out out/house
+      ./walk plan building.ifc --out out/slow --speed-mps 0.8 --keypoints 12
+    """
+    names = {_variable(option): option.name for option in plan_options()}
+    given = {names[variable]: value for variable, value in values.items() if value is not None}
+    config = plan_config(given)
+    started = time.monotonic()
+    with _shown_progress(quiet) as progress:
+        walkthrough = plan_walkthrough(building, out, config, progress)
+    for line in summary_lines(walkthrough, out, time.monotonic() - started):
+        print(line)
+    return 0
+
+
+def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterator[str]:
+    """Yields what the user reads at the end of a plan."""
+    quality = walkthrough.quality
+    entered = sum(visit.entered for visit in walkthrough.visits)
+    minutes, rest = divmod(round(quality.duration_s), 60)
+    yield f"walk       {quality.length_m:.1f} m in {minutes} min {rest} s past {len(walkthrough.keypoints)} keypoints"
+    yield f"rooms      {entered} of {len(walkthrough.visits)} entered"
+    yield f"collisions {quality.colliding_segments} of {quality.segments} segments"
+    for warning in walkthrough.warnings:
+        yield f"note       {warning}"
+    yield f"results    {out} (planned in {seconds:.1f} s); open {out / 'report.html'}"
+
+
+@contextmanager
+def _shown_progress(quiet: bool) -> Iterator[Callable[[str, float], None]]:
+    if quiet:
+        yield no_progress
+    elif not sys.stderr.isatty():
+        yield _print_ends
+    else:
+        columns = (
+            TextColumn("{task.description:<12}"),
+            BarColumn(),
+            TaskProgressColumn(),
+            TimeElapsedColumn(),
+            TextColumn("left"),
+            TimeRemainingColumn(),
+        )
+        with Progress(*columns, console=Console(stderr=True)) as bars:
+            yield _StageBars(bars)
+
+
+class _StageBars:
+    """A bar for each stage, added when the stage begins."""
+
+    def __init__(self, bars: Progress) -> None:
+        self._bars = bars
+        self._tasks: dict[str, TaskID] = {}
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        if stage not in self._tasks:
+            number = STAGES.index(stage) + 1 if stage in STAGES else len(self._tasks) + 1
+            self._tasks[stage] = self._bars.add_task(f"{number}/{len(STAGES)} {stage}", total=1.0)
+        self._bars.update(self._tasks[stage], completed=fraction)
+
+
+def _print_ends(stage: str, fraction: float) -> None:
+    if fraction >= 1.0:
+        print(f"{stage} done", file=sys.stderr, flush=True)

@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk up`: the node graph on one building."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.bootstrap.errors import SetupError
+from walk_bringup.cli.executables import executables, find_executable
+from walk_bringup.cli.processes import Child, Supervisor
+
+NODES = {"importance": "walk_importance", "sequencer": "walk_sequencer", "trajopt": "walk_trajopt"}
+"""The nodes and their packages, in the order of the data flow."""
+
+OPTIONAL_NODES = {"vr_bridge": "walk_vr_bridge"}
+"""Nodes that are started where their package is built."""
+
+TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, path, trajectory, /diagnostics"
+
+
+@click.command(short_help=COMMANDS["up"])
+@click.argument("building", type=click.Path(path_type=Path), required=False)
+@click.option("--param", "params", multiple=True, metavar="NODE.NAME=VALUE", help="Set a parameter of a node.")
+@click.option("--params-file", type=click.Path(path_type=Path), help="YAML of parameters; ./walk params prints one.")
+@click.option("--namespace", default="walk", show_default=True, help="Namespace of the nodes and topics.")
+@click.option("--log-level", type=click.Choice(["debug", "info", "warn", "error"]), default="info", show_default=True)
+def up(building: Path | None, params: tuple[str, ...], params_file: Path | None, namespace: str, log_level: str) -> int:
+    """Start the node graph on BUILDING (default: the sample building); Ctrl-C stops all.
+
+    ROS_DOMAIN_ID is kept where it is set; nodes are found on this machine only, unless
+    ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise.
+
+    \b
+    Examples:
+      ./walk up
+      ./walk up building.ifc
+      ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
+    """
+    nodes = NODES | {name: package for name, package in OPTIONAL_NODES.items() if executables(package)}
+    shared = ros_arguments(building, params_file, namespace, log_level)
+    own = parameters_by_node(params, list(nodes))
+    children = [
+        Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *own[name]))
+        for name, package in nodes.items()
+    ]
+    supervisor = Supervisor(children)
+    supervisor.start()
+    domain = os.environ.get("ROS_DOMAIN_ID", "0")
+    supervisor.say(f"walk: {', '.join(nodes)} started on {building or 'the sample building'}, ROS domain {domain}.")
+    supervisor.say(f"walk: topics under /{namespace.strip('/')}: {TOPICS}.")
+    supervisor.say("walk: Ctrl-C stops all.")
+    supervisor.wait()
+    if supervisor.failed:
+        supervisor.say(f"walk: ended; {', '.join(supervisor.failed)} had ended before.")
+        return 1
+    supervisor.say("walk: all nodes have ended.")
+    return 0
+
+
+def ros_arguments(building: Path | None, params_file: Path | None, namespace: str, log_level: str) -> list[str]:
+    """Returns the ROS arguments that all nodes get.
+
+    Raises:
+        SetupError: A file is not there.
+    """
+    arguments = ["-r", f"__ns:=/{namespace.strip('/')}", "--log-level", log_level]
+    for path, what in ((building, "building"), (params_file, "parameter file")):
+        if path is not None and not path.is_file():
+            raise SetupError(f"{path}: there is no such {what}")
+    if params_file is not None:
+        arguments += ["--params-file", str(params_file.resolve())]
+    if building is not None:
+        arguments += ["-p", f"building:={building.resolve()}"]
+    return arguments
+
+
+def parameters_by_node(params: tuple[str, ...], nodes: list[str]) -> dict[str, list[str]]:
+    """Returns the ROS arguments for parameters given as NODE.NAME=VALUE.
+
+    Raises:
+        SetupError: One of them reads otherwise or names no node.
+    """
+    arguments: dict[str, list[str]] = {node: [] for node in nodes}
+    for param in params:
+        target, equals, value = param.partition("=")
+        node, dot, name = target.partition(".")
+        if not (equals and dot and name and value):
+            raise SetupError(f"--param {param!r} does not read NODE.NAME=VALUE, such as trajopt.timing.speed_mps=1.0")
+        if node not in arguments:
+            raise SetupError(f"--param {param!r}: there is no node {node!r}; nodes: {', '.join(nodes)}")
+        arguments[node] += ["-p", f"{name}:={value}"]
+    return arguments

@@ -1,0 +1,81 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The parameters of all nodes as one YAML, made from the config dataclasses."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from walk_sequencer.holds import EditingConfig
+
+from walk_building.config import Config
+from walk_building.model import LoadOptions
+from walk_building.walker import Walker
+from walk_importance.config import ImportanceConfig, KeypointConfig
+from walk_sequencer.config import SequencerConfig
+from walk_trajopt.config import TimingConfig, TrajoptConfig
+
+NODE_CONFIGS: Mapping[str, Mapping[str, type[Config]]] = {
+    "importance": {"importance": ImportanceConfig, "keypoints": KeypointConfig},
+    "sequencer": {"sequencer": SequencerConfig, "editing": EditingConfig},
+    "trajopt": {"trajopt": TrajoptConfig, "timing": TimingConfig},
+}
+"""Config classes by node and parameter group; every node has `load` and `walker` beside them."""
+
+SHARED: Mapping[str, type[Config]] = {"load": LoadOptions, "walker": Walker}
+
+_HEADER = """\
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+# All parameters of the nodes with their defaults; made by `./walk params`, do not edit.
+# Copy it, keep the lines you change, and start with `./walk up --params-file FILE` or launch's params_file:=FILE.
+"""
+
+
+def parameters_yaml() -> str:
+    """Returns the YAML: what all nodes share first, then each node's own."""
+    lines = [_HEADER.rstrip()]
+    lines += _node("/**", SHARED, ('    building: ""  # path of the building file; empty for the sample building',))
+    for node, configs in NODE_CONFIGS.items():
+        lines += _node(f"/**/{node}", configs, ())
+    return "\n".join(lines) + "\n"
+
+
+def _node(name: str, configs: Mapping[str, type[Config]], first: tuple[str, ...]) -> Iterator[str]:
+    yield f"{name}:"
+    yield "  ros__parameters:"
+    yield from first
+    for group, config in configs.items():
+        yield f"    {group}:"
+        for field in dataclasses.fields(config):  # type: ignore[arg-type]
+            yield f"      {field.name}: {yaml_value(field.default)}  # {describe(field)}"
+
+
+def yaml_value(value: Any) -> str:
+    """Returns a default as YAML 1.1 reads it back, a float always with its point."""
+    if isinstance(value, float):
+        text = repr(value)
+        # Without the point in front of the exponent it would be read as a text.
+        return text if "e" not in text or "." in text else text.replace("e", ".0e")
+    return json.dumps(value)
+
+
+def describe(field: dataclasses.Field[Any]) -> str:
+    """Returns what a parameter does, with its unit and what it may be."""
+    meta = field.metadata
+    low, high = meta["low"], meta["high"]
+    limits = []
+    if meta["unit"]:
+        limits.append(meta["unit"])
+    if meta["choices"]:
+        limits.append(" | ".join(meta["choices"]))
+    if low is not None and high is not None:
+        limits.append(f"{low:g} to {high:g}")
+    elif low is not None:
+        limits.append(f"at least {low:g}")
+    elif high is not None:
+        limits.append(f"at most {high:g}")
+    return meta["doc"] + (f" [{', '.join(limits)}]" if limits else "")
