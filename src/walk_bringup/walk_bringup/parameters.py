@@ -9,13 +9,12 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from walk_sequencer.holds import EditingConfig
-
 from walk_building.config import Config
 from walk_building.model import LoadOptions
 from walk_building.walker import Walker
 from walk_importance.config import ImportanceConfig, KeypointConfig
 from walk_sequencer.config import SequencerConfig
+from walk_sequencer.editing import EditingConfig
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 
 NODE_CONFIGS: Mapping[str, Mapping[str, type[Config]]] = {

@@ -35,17 +35,17 @@ def run_logged(
     """
     log.parent.mkdir(parents=True, exist_ok=True)
     lines = []
-    with log.open("w", encoding="utf-8") as file:
-        process = subprocess.Popen(
-            list(map(str, command)),
-            cwd=cwd,
-            env=dict(env),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-        )
+    process = subprocess.Popen(
+        list(map(str, command)),
+        cwd=cwd,
+        env=dict(env),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+    )
+    with log.open("w", encoding="utf-8") as file, process:
         assert process.stdout is not None
         try:
             for line in process.stdout:
@@ -55,7 +55,6 @@ def run_logged(
             code = process.wait()
         except BaseException:
             process.terminate()
-            process.wait()
             raise
     if code != 0:
         raise SetupError(f"{explain(''.join(lines))} The whole output is in {log}.")

@@ -30,9 +30,6 @@ from walk_plan.pipeline import plan_walkthrough
 from walk_plan.stages import STAGES
 from walk_plan.walkthrough import Walkthrough
 
-_ALIASES = {"units-m": "--units", "count": "--keypoints", "voxel-size-m": "--voxel-size"}
-"""Names that are handier than those of the fields."""
-
 
 class SectionedCommand(click.Command):
     """A command whose help groups the options by the stage they belong to."""
@@ -60,8 +57,6 @@ class PlanClickOption(click.Option):
             names = [f"--{option.name}/--no-{option.name}"]
         elif option.field.metadata["choices"]:
             kind = click.Choice(option.field.metadata["choices"])
-        if option.name in _ALIASES:
-            names.append(_ALIASES[option.name])
         self.section = f"Options of the stage '{option.section}'"
         self.field_name = option.name
         help_text = f"{option.help} (default: {_shown(option.field.default)})"
@@ -97,7 +92,7 @@ def plan(building: Path, out: Path, quiet: bool, **values: Any) -> int:
     Examples:
       ./walk plan building.ifc --out out/building
       ./walk plan house.obj --units 0.001 --up y --out out/house
-      ./walk plan building.ifc --out out/slow --speed-mps 0.8 --keypoints 12
+      ./walk plan building.ifc --out out/slow --speed 0.8 --keypoints 12
     """
     names = {_variable(option): option.name for option in plan_options()}
     given = {names[variable]: value for variable, value in values.items() if value is not None}

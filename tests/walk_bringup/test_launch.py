@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import yaml
+
+from walk_bringup.cli.up import NODES
+
+SHARE = Path(__file__).resolve().parents[2] / "src" / "walk_bringup"
+LAUNCH = (SHARE / "launch" / "walk.launch.py").read_text(encoding="utf-8")
+
+
+def _calls(name: str) -> list[ast.Call]:
+    calls = (node for node in ast.walk(ast.parse(LAUNCH)) if isinstance(node, ast.Call))
+    return [call for call in calls if isinstance(call.func, ast.Name) and call.func.id == name]
+
+
+def test_launch_file_describes_every_argument() -> None:
+    declared = {
+        call.args[0].value: {keyword.arg for keyword in call.keywords}
+        for call in _calls("DeclareLaunchArgument")
+        if isinstance(call.args[0], ast.Constant)
+    }
+    assert set(declared) == {"building", "namespace", "params_file", "log_level", "use_sim_time"}
+    assert all("description" in keywords and "default_value" in keywords for keywords in declared.values())
+
+
+def test_launch_file_uses_only_arguments_it_declares() -> None:
+    used = {call.args[0].value for call in _calls("LaunchConfiguration") if isinstance(call.args[0], ast.Constant)}
+    declared = {
+        call.args[0].value for call in _calls("DeclareLaunchArgument") if isinstance(call.args[0], ast.Constant)
+    }
+    assert used == declared
+
+
+def test_launch_file_starts_the_nodes_that_up_starts() -> None:
+    assignments = (node for node in ast.parse(LAUNCH).body if isinstance(node, ast.Assign))
+    nodes = next(node.value for node in assignments if getattr(node.targets[0], "id", "") == "NODES")
+    assert ast.literal_eval(nodes) == NODES
+
+
+def test_rviz_shows_topics_of_the_table() -> None:
+    from walk_ros.topics import TOPICS, absolute_name
+
+    layout = yaml.safe_load((SHARE / "rviz" / "walk.rviz").read_text(encoding="utf-8"))
+    shown = [display["Topic"] for display in layout["Visualization Manager"]["Displays"] if "Topic" in display]
+    table = {absolute_name(name): topic.qos for name, topic in TOPICS.items()}
+    assert shown
+    for topic in shown:
+        durability = table[topic["Value"]].durability.name.replace("_", " ").title()
+        assert topic["Durability Policy"] == durability, topic["Value"]
