@@ -30,7 +30,7 @@ class SequencerConfig(Config):
         0.3, "distance to the walls, beyond the body, from which a leg has nothing to gain", unit="m", low=0.0, high=2.0
     )
     comfort_weight: float = param(
-        1.0, "price of a metre walked at a wall, on top of its length; 0 plans the shortest legs", low=0.0, high=10.0
+        0.5, "price of a metre walked at a wall, on top of its length; 0 plans the shortest legs", low=0.0, high=10.0
     )
     snap_m: float = param(
         0.5, "farthest a keypoint may be from a place to stand on and still count", unit="m", low=0.0, high=3.0

@@ -131,10 +131,12 @@ def walk_line(ground, a, ax, ay, b, bx, by, profile):  # type: ignore[no-untyped
 
     Args:
         ground: The ground.
-        a: Place at a corner of the square that holds (ax, ay).
-        ax, ay: Start [m].
-        b: Place at a corner of the square that holds (bx, by).
-        bx, by: End [m].
+        a: Place at a corner of the square that holds the start.
+        ax: Start, x [m].
+        ay: Start, y [m].
+        b: Place at a corner of the square that holds the end.
+        bx: End, x [m].
+        by: End, y [m].
         profile: (n, 2) or None: gets the share of the line and the height [m] at each square crossed.
     """
     x, y = (ax - ground.origin[0]) / ground.cell_m, (ay - ground.origin[1]) / ground.cell_m

@@ -3,7 +3,8 @@
 """Orders of an open tour. A method is one file here and one line in `ORDERS`.
 
 A method takes the costs (n, n) from row to column, finite and not negative, which need not be symmetric; the index
-to start at and the index to end at, -1 where free; and the config, for its own settings. It returns a permutation (n,) of the indices.
+to start at and the index to end at, -1 where free; and the config, for its own settings. It returns a permutation
+(n,) of the indices.
 """
 
 from __future__ import annotations

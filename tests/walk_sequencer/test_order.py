@@ -1,0 +1,116 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from walk_building.errors import ParameterError
+from walk_sequencer.config import SequencerConfig
+from walk_sequencer.order import ORDERS, order_cost, resolve_method
+
+CONFIG = SequencerConfig()
+SHORT = ("exact", "local_search")
+
+
+def euclidean(n: int, seed: int) -> NDArray[np.float64]:
+    points = np.random.default_rng(seed).uniform(0.0, 20.0, (n, 2))
+    return np.linalg.norm(points[:, None] - points[None], axis=2)
+
+
+def brute_force(costs: NDArray[np.float64], start: int, end: int) -> float:
+    n = len(costs)
+    orders = (p for p in itertools.permutations(range(n)) if (start < 0 or p[0] == start) and (end < 0 or p[-1] == end))
+    return min(order_cost(costs, np.array(p)) for p in orders)
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(("start", "end"), [(-1, -1), (2, -1), (-1, 0), (0, 5)])
+def test_exact_order_costs_what_the_best_of_all_permutations_costs(seed: int, start: int, end: int) -> None:
+    costs = np.random.default_rng(seed).uniform(0.0, 9.0, (7, 7))  # neither symmetric nor a metric
+    order = ORDERS["exact"](costs, start, end, CONFIG)
+    assert order_cost(costs, order) == pytest.approx(brute_force(costs, start, end))
+
+
+@pytest.mark.parametrize("n", [10, 12, 14])
+def test_local_search_is_within_one_percent_of_the_exact_order(n: int) -> None:
+    gaps = []
+    for seed in range(8):
+        costs = euclidean(n, seed)
+        best = order_cost(costs, ORDERS["exact"](costs, -1, -1, CONFIG))
+        gaps.append(order_cost(costs, ORDERS["local_search"](costs, -1, -1, CONFIG)) / best - 1.0)
+    assert min(gaps) > -1e-9
+    assert np.mean(gaps) < 0.0033
+    assert max(gaps) < 0.01
+
+
+def test_local_search_finds_the_best_order_of_asymmetric_costs() -> None:
+    for seed in range(5):
+        costs = np.random.default_rng(seed).uniform(1.0, 9.0, (11, 11))
+        for start, end in ((-1, -1), (3, -1), (3, 7)):
+            best = order_cost(costs, ORDERS["exact"](costs, start, end, CONFIG))
+            assert order_cost(costs, ORDERS["local_search"](costs, start, end, CONFIG)) <= 1.03 * best
+
+
+@pytest.mark.parametrize("end", [-1, 4])
+def test_tree_order_costs_at_most_twice_the_optimum_of_a_metric(end: int) -> None:
+    worse = 0
+    for seed in range(20):
+        costs = euclidean(10, seed)
+        ratio = order_cost(costs, ORDERS["mst_dfs"](costs, 0, end, CONFIG)) / order_cost(
+            costs, ORDERS["exact"](costs, 0, end, CONFIG)
+        )
+        assert 1.0 - 1e-9 <= ratio <= 2.0
+        worse += ratio > 1.01
+    assert worse > 10  # else it is not the source's method
+
+
+@settings(max_examples=60, deadline=None)
+@given(data=st.data(), n=st.integers(1, 12), name=st.sampled_from(sorted(ORDERS)))
+def test_every_order_visits_each_once_and_keeps_the_ends(data: st.DataObject, n: int, name: str) -> None:
+    costs = np.array(data.draw(st.lists(st.floats(0.0, 1e3), min_size=n * n, max_size=n * n))).reshape(n, n)
+    start = data.draw(st.integers(-1, n - 1))
+    end = data.draw(st.integers(-1, n - 1).filter(lambda k: k < 0 or k != start))
+    order = ORDERS[name](costs, start, end, SequencerConfig(kicks=20))
+    assert sorted(order.tolist()) == list(range(n))
+    assert start < 0 or order[0] == start
+    assert end < 0 or order[-1] == end
+
+
+@pytest.mark.parametrize("name", sorted(ORDERS))
+def test_every_order_of_none_is_empty(name: str) -> None:
+    assert len(ORDERS[name](np.zeros((0, 0)), -1, -1, CONFIG)) == 0
+
+
+def test_given_order_moves_only_the_chosen_ends() -> None:
+    order = ORDERS["given"](np.zeros((5, 5)), 3, 0, CONFIG)
+    assert order.tolist() == [3, 1, 2, 4, 0]
+
+
+@pytest.mark.parametrize("name", SHORT)
+def test_keypoints_on_a_line_are_walked_from_end_to_end(name: str) -> None:
+    x = np.random.default_rng(4).permutation(14).astype(float)
+    costs = np.abs(x[:, None] - x[None])
+    assert order_cost(costs, ORDERS[name](costs, -1, -1, CONFIG)) == pytest.approx(13.0)
+
+
+def test_auto_is_exact_up_to_fourteen() -> None:
+    assert [resolve_method("auto", n) for n in (0, 14, 15)] == ["exact", "exact", "local_search"]
+    assert resolve_method("mst_dfs", 3) == "mst_dfs"
+
+
+def test_exact_refuses_what_it_cannot_hold() -> None:
+    with pytest.raises(ParameterError, match="local_search for 15 keypoints"):
+        ORDERS["exact"](euclidean(15, 0), -1, -1, CONFIG)
+
+
+def test_local_search_of_sixty_reaches_the_best_of_many_kicks_within_two_percent() -> None:
+    costs = euclidean(60, 1)
+    usual = order_cost(costs, ORDERS["local_search"](costs, -1, -1, CONFIG))
+    long = order_cost(costs, ORDERS["local_search"](costs, -1, -1, SequencerConfig(kicks=20000, seed=7)))
+    assert usual <= 1.02 * long
