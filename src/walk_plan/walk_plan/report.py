@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 
 from walk_plan import wording
 from walk_plan.drawing import style
+from walk_plan.drawing.floor import shown_places
 from walk_plan.drawing.maps import draw_maps
 from walk_plan.drawing.profiles import draw_profiles
 from walk_plan.drawing.storey_plan import draw_storey
@@ -93,7 +94,7 @@ def picture(figure: Figure, title: str, alt: str) -> Picture:
 def shown_storeys(walkthrough: Walkthrough) -> list[int]:
     """Returns the storeys with something to show, lowest first: a floor inside the building, or a piece of the walk."""
     building = walkthrough.building
-    inside = building.surface.storey[building.surface.indoor | building.reachable]
+    inside = building.surface.storey[shown_places(building)]
     found = set(np.unique(inside).tolist()) | {int(s) for s in walkthrough.profile.storey}
     return sorted(storey for storey in found if storey >= 0)
 

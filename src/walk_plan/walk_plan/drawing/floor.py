@@ -17,13 +17,32 @@ _MARGIN_M = 1.2  # the body's radius, a wall and some paper
 _FINER = 2  # a pixel of the tint is this much smaller than a cell of the surface
 
 
+def shown_places(building: Building, storey: int | None = None) -> NDArray[np.bool_]:
+    """Returns which places are floor to an architect (P,): what can be reached, and rooms that cannot.
+
+    What is left out are the tops of furniture and walls.
+    """
+    surface = building.surface
+    floor = building.reachable | (surface.indoor & (surface.room >= 0))
+    return floor if storey is None else floor & (surface.storey == storey)
+
+
 def storey_bounds(building: Building, storey: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Returns the lower left and the upper right corner of what a storey's plan shows, (2,) each [m]."""
-    surface = building.surface
-    inside = surface.places[(surface.storey == storey) & (surface.indoor | building.reachable), :2]
+    inside = building.surface.places[shown_places(building, storey), :2]
     if len(inside) == 0:
         inside = building.geometry.bounds[:, :2]
     return inside.min(axis=0) - _MARGIN_M, inside.max(axis=0) + _MARGIN_M
+
+
+def away_from_floor(building: Building, storey: int, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Returns which of the points (n, 2) are too far from the storey's floor to be part of its plan, such as trees."""
+    surface = building.surface
+    empty = np.ones(surface.columns.count, bool)
+    empty[surface.columns.flat_of(surface.places[shown_places(building, storey), :2])] = False
+    away = distance_transform_edt(empty.reshape(surface.columns.shape)).ravel() * surface.cell_m
+    column = surface.columns.flat_of(points)
+    return np.asarray((column < 0) | (away[column] > _MARGIN_M))
 
 
 def tinted_floor(axes: Axes, building: Building, storey: int) -> None:
@@ -31,7 +50,7 @@ def tinted_floor(axes: Axes, building: Building, storey: int) -> None:
     surface = building.surface
     nx, ny = surface.columns.shape
     room = np.full(nx * ny, -2)
-    here = (surface.storey == storey) & (surface.indoor | building.reachable)
+    here = shown_places(building, storey)
     # Only what can be reached has a colour of its own.
     shown = np.where(building.reachable[here], surface.room[here], -1)
     room[surface.columns.flat_of(surface.places[here, :2])] = shown

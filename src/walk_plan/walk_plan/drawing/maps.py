@@ -17,7 +17,7 @@ from walk_building.building import Building
 from walk_importance.grid import VoxelGrid
 from walk_importance.importance_map import ImportanceMap
 from walk_plan.drawing import style
-from walk_plan.drawing.floor import storey_bounds
+from walk_plan.drawing.floor import shown_places, storey_bounds
 from walk_plan.profile import storeys_along
 from walk_plan.walkthrough import Walkthrough
 
@@ -86,8 +86,8 @@ def _layers(importance_map: ImportanceMap, building: Building, storey: int) -> _
 
 def _over_floor(importance_map: ImportanceMap, building: Building, storey: int) -> NDArray[np.bool_]:
     """Which columns of voxels stand over the storey's floor, over its walls, or over furniture in its middle."""
-    surface, grid = building.surface, importance_map.grid
-    here = surface.places[(surface.storey == storey) & (surface.indoor | building.reachable)]
+    grid = importance_map.grid
+    here = building.surface.places[shown_places(building, storey)]
     inside = np.zeros(grid.shape[:2], bool)
     inside[tuple(grid.indices(here)[:, :2].T)] = True
     reach = int(np.ceil(_WALL_M / grid.voxel_size_m))
@@ -99,7 +99,8 @@ def _scales(layers: list[_Layers]) -> list[tuple[float, float]]:
     scales = [(0.0, 1.0)]
     for which in range(3):
         shown = np.concatenate([layer.values[which][~layer.solid & ~layer.outside] for layer in layers])
-        low, high = (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
+        # A few voxels on a balcony that look out over everything would leave the rooms all one colour.
+        low, high = (float(shown.min()), float(np.percentile(shown, 98))) if len(shown) else (0.0, 1.0)
         low = low if which == 2 else 0.0
         scales.append((low, max(high, low + 1e-6)))
     return scales
@@ -140,7 +141,7 @@ def _draw_scale(made: Figure, image: AxesImage, which: int, left: float, panel: 
         colours.set_ticks([0.25, 0.75], labels=["free", "solid"])
     else:
         low, high = image.get_clim()
-        words = ("none", "far") if which == 1 else (f"{100 * low:.0f} %", f"{100 * high:.0f} %") if which == 2 else ("low", "high")
+        words = ("none", "far") if which == 1 else (f"{100 * low:.0f} %", f"{100 * high:.0f} % or more") if which == 2 else ("low", "high")
         colours.set_ticks([low, high], labels=words)
     colours.outline.set_linewidth(0.4)  # type: ignore[operator]
     bar.tick_params(labelsize=style.SMALL_PT, length=2, width=0.4, pad=1.5)

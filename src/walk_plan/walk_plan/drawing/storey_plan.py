@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from walk_building.building import Building
 from walk_plan.along import densified, walked_m
 from walk_plan.drawing import style
-from walk_plan.drawing.floor import storey_bounds, tinted_floor
+from walk_plan.drawing.floor import away_from_floor, storey_bounds, tinted_floor
 from walk_plan.drawing.plan_foot import CLEARANCE_NORM, draw_foot
 from walk_plan.drawing.plan_labels import label_keypoints, label_passages, label_rooms
 from walk_plan.drawing.labels import LabelBoard
@@ -100,8 +101,8 @@ def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
 def _draw_walls(axes: Axes, building: Building, storey: int) -> Section:
     floor = building.storeys[storey].elevation_m
     solid = [part for part in building.model.parts if part.kind.startswith(_SOLID)]
-    low = cut(building.geometry, floor + FURNITURE_HEIGHT_M)
-    walls = cut(building.geometry, floor + CUT_HEIGHT_M, solid)
+    low = _near(building, storey, cut(building.geometry, floor + FURNITURE_HEIGHT_M))
+    walls = _near(building, storey, cut(building.geometry, floor + CUT_HEIGHT_M, solid))
     _draw_lines(axes, low, style.HAIR, 0.5, 2)
     for area in walls.solids:
         rings = [Path(np.asarray(ring.coords), closed=True) for ring in (area.exterior, *area.interiors)]
@@ -109,6 +110,17 @@ def _draw_walls(axes: Axes, building: Building, storey: int) -> Section:
         axes.add_patch(patch)
     _draw_lines(axes, walls, style.INK, 0.6, 3)
     return walls
+
+
+def _near(building: Building, storey: int, section: Section) -> Section:
+    """Returns the section without what stands far from the floor."""
+    if not section.lines:
+        return section
+    pieces = [densified(line, 0.5) for line in section.lines]
+    away = away_from_floor(building, storey, np.vstack(pieces))
+    ends = np.cumsum([len(piece) for piece in pieces])[:-1]
+    near = [not mine.all() for mine in np.split(away, ends)]
+    return dataclasses.replace(section, lines=tuple(itertools.compress(section.lines, near)))
 
 
 def _draw_lines(axes: Axes, section: Section, colour: str, width_pt: float, order: int) -> None:
