@@ -9,8 +9,8 @@ import dataclasses
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.building import Building
 
+from walk_building.building import Building
 from walk_importance.errors import NoPlaceError
 from walk_importance.importance_map import ImportanceMap
 
@@ -87,9 +87,19 @@ def lower_by_cone(eyes, score, tip, radius, depth, reach):
     Only up to `reach` above and below, because the source's Euclidean cone would also lower the storeys above.
     """
     for i in range(len(score)):
-        dx, dy, dz = eyes[i, 0] - tip[0], eyes[i, 1] - tip[1], eyes[i, 2] - tip[2]
-        if abs(dz) > reach or abs(dx) > radius or abs(dy) > radius:
-            continue
-        distance = np.sqrt(dx * dx + dy * dy + dz * dz)
-        if distance < radius:
+        distance = _distance(eyes, i, tip)
+        if distance < radius and abs(eyes[i, 2] - tip[2]) <= reach:
             score[i] -= depth * (1.0 - distance / radius)
+
+
+@numba.njit(cache=True, nogil=True)
+def rule_out_near(eyes, apart, tip, width):
+    """Clears `apart` (C,) for the candidates nearer than `width` to `tip`."""
+    for i in range(len(apart)):
+        if apart[i] and _distance(eyes, i, tip) < width:
+            apart[i] = False
+
+
+@numba.njit(cache=True, nogil=True)
+def _distance(eyes, i, tip):
+    return np.sqrt((eyes[i, 0] - tip[0]) ** 2 + (eyes[i, 1] - tip[1]) ** 2 + (eyes[i, 2] - tip[2]) ** 2)

@@ -13,9 +13,7 @@ from walk_building.config import Config, param
 class ImportanceConfig(Config):
     """How the importance map is computed."""
 
-    voxel_size_m: float = param(
-        0.25, "edge of a voxel; above 0.6 m a door would close", unit="m", low=0.05, high=0.6
-    )
+    voxel_size_m: float = param(0.25, "edge of a voxel; above 0.6 m a door would close", unit="m", low=0.05, high=0.6)
     max_voxels: int = param(
         1_500_000, "more voxels than this make the grid coarser, and the map says so", low=1000, high=64_000_000
     )
@@ -63,7 +61,11 @@ class KeypointConfig(Config):
         0.9, "with count 0, share of a room's floor that its keypoints see together", low=0.0, high=1.0
     )
     view_distance_m: float = param(
-        15.0, "with count 0, floor farther than this from a keypoint does not count as seen", unit="m", low=1.0, high=200.0
+        15.0,
+        "with count 0, floor farther than this from a keypoint does not count as seen",
+        unit="m",
+        low=1.0,
+        high=200.0,
     )
     snap_radius_m: float = param(
         1.5, "how far a keypoint asked for by the user may be moved to a better place", unit="m", low=0.1, high=20.0

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from walk_building.model import Model
 
+from walk_building.model import Model
 from walk_importance.grid import VoxelGrid
 
 # What a walker walks on or under. The source leaves out floors and ceilings; stairs and ramps are floors that climb.
@@ -27,7 +27,7 @@ def floor_and_ceiling_faces(model: Model, floor_area_m2: float) -> NDArray[np.bo
     without classes those are whose faces are level, hang together over at least `floor_area_m2`, and are
     wide: twice the area over the length of the outline is the width of a strip, and a wall's top is a strip.
     """
-    kind = np.zeros(len(model.faces), np.int8)  # 0 obstacle, 1 floor, 2 ask the shape, 3 floor where it is level
+    kind = np.full(len(model.faces), 2, np.int8)  # 0 obstacle, 1 floor, 2 ask the shape, 3 floor where it is level
     for part in model.parts:
         kind[part.first_face : part.first_face + part.n_faces] = _rule(part.kind)
     level = _level_faces(model.vertices, model.faces)
@@ -56,9 +56,7 @@ def _normals(vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> NDArray
     return np.cross(b - a, c - a)
 
 
-def _wide_pieces(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], floor_area_m2: float
-) -> NDArray[np.bool_]:
+def _wide_pieces(vertices: NDArray[np.float64], faces: NDArray[np.int32], floor_area_m2: float) -> NDArray[np.bool_]:
     """Which of `faces` (F, 3) belong to a connected piece of at least the area that is no strip."""
     if len(faces) == 0:
         return np.zeros(0, bool)
@@ -93,7 +91,8 @@ def distance_map(grid: VoxelGrid, obstacles: NDArray[np.bool_], clip_m: float) -
     """
     reach = clip_m / grid.voxel_size_m
     window = int(np.ceil(reach))
-    squared = np.where(obstacles, 0, window * window + 1).astype(np.int32)
+    squared = np.full(obstacles.shape, window * window + 1, np.int32)
+    squared[obstacles] = 0
     for axis in range(3):
         lines = np.moveaxis(squared, axis, -1)
         _lower_along(lines, window)

@@ -7,8 +7,8 @@ from __future__ import annotations
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.building import Building
 
+from walk_building.building import Building
 from walk_importance.grid import VoxelGrid
 
 _OVER_FURNITURE_M = 1.5  # air this far beside a place to stand, past furniture, is still the room's
@@ -28,7 +28,7 @@ def indoor_voxels(building: Building, grid: VoxelGrid, free: NDArray[np.bool_]) 
     low[tuple(found.T)] = True
     inside = low & free
     _rise(inside, free)
-    return _spread_level(inside, free, int(round(_OVER_FURNITURE_M / grid.voxel_size_m)))
+    return _spread_level(inside, free, round(_OVER_FURNITURE_M / grid.voxel_size_m))
 
 
 @numba.njit(cache=True, nogil=True)

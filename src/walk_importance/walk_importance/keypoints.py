@@ -8,9 +8,16 @@ import dataclasses
 
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.building import Building
 
-from walk_importance.candidates import STOREY_REACH_M, Candidates, best_candidate, find_candidates, lower_by_cone
+from walk_building.building import Building
+from walk_importance.candidates import (
+    STOREY_REACH_M,
+    Candidates,
+    best_candidate,
+    find_candidates,
+    lower_by_cone,
+    rule_out_near,
+)
 from walk_importance.config import KeypointConfig
 from walk_importance.errors import TooManyKeypointsError
 from walk_importance.importance_map import ImportanceMap
@@ -112,7 +119,7 @@ class _Choice:
         lower_by_cone(
             self.candidates.eyes, self.score, tip, self._config.cone_radius_m, self._config.cone_depth, STOREY_REACH_M
         )
-        self.apart &= np.linalg.norm(self.candidates.eyes - tip, axis=1) >= self._width_m
+        rule_out_near(self.candidates.eyes, self.apart, tip, self._width_m)
         return best
 
 

@@ -29,7 +29,7 @@ def obstacle_voxels(grid: VoxelGrid, triangles: NDArray[np.float64]) -> NDArray[
 
 @numba.njit(cache=True, nogil=True)
 def _voxelise(triangles, found):
-    """Separating axes of a triangle and a unit cube (`akenine2001`): the cube's three, the normal, nine edge products."""
+    """Tests the separating axes of triangle and unit cube (`akenine2001`): cube's sides, normal, nine edge products."""
     slack = 1e-6
     lo = np.empty(3, np.int64)
     hi = np.empty(3, np.int64)

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
+
 from walk_building.building import Building
 from walk_building.progress import Progress, no_progress
-
 from walk_importance.config import ImportanceConfig
 from walk_importance.distance import distance_map, floor_and_ceiling_faces
 from walk_importance.errors import NoFreeVoxelError
@@ -49,9 +49,8 @@ def refine_importance(
     blocked, obstacle, distance = _geometry_maps(building, grid, config)
     progress(_STAGE, 0.2)
     scene = _scene(building, grid, ~blocked, config)
-    for view in MODES[config.visibility](scene, config.seed):
-        good = _good_enough(view, config)
-        progress(_STAGE, 1.0 if good else 0.2 + 0.8 * min(1.0, config.visibility_error * view.spread / view.stderr))
+    for view in MODES[config.visibility](scene):
+        progress(_STAGE, _how_far(view, config))
         yield ImportanceMap(
             grid=grid,
             obstacle=obstacle,
@@ -61,12 +60,19 @@ def refine_importance(
             visibility_stderr=view.stderr,
             notes=notes,
         )
-        if good:
+        if _good_enough(view, config):
             return
 
 
 def _good_enough(view: VisibilityEstimate, config: ImportanceConfig) -> bool:
     return view.done >= 1.0 or view.stderr <= config.visibility_error * view.spread
+
+
+def _how_far(view: VisibilityEstimate, config: ImportanceConfig) -> float:
+    # The error halves with four times the work, hence the square.
+    if _good_enough(view, config):
+        return 1.0
+    return 0.2 + 0.8 * max(view.done, min(1.0, config.visibility_error * view.spread / view.stderr) ** 2)
 
 
 def _geometry_maps(
@@ -90,7 +96,7 @@ def _scene(building: Building, grid: VoxelGrid, free: NDArray[np.bool_], config:
     sources = targets
     if config.visibility_sources == "eye":
         sources = eye_voxels(building, grid, free) & targets
-    return Scene(grid=grid, free=free, targets=targets, sources=sources, geometry=building.geometry)
+    return Scene(grid=grid, free=free, targets=targets, sources=sources, geometry=building.geometry, seed=config.seed)
 
 
 def _sealed(array: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.geometry import Geometry
 
+from walk_building.geometry import Geometry
 from walk_importance.importance_map import ImportanceMap
 
 _YAWS = 72
@@ -26,7 +26,8 @@ def view_yaws(geometry: Geometry, importance_map: ImportanceMap, eyes: NDArray[n
     yaw = np.arange(_YAWS) * (2 * np.pi / _YAWS)
     grid_yaw, grid_pitch = np.meshgrid(yaw, _PITCHES_RAD, indexing="ij")
     flat = np.cos(grid_pitch)
-    directions = np.stack([flat * np.cos(grid_yaw), flat * np.sin(grid_yaw), np.sin(grid_pitch)], axis=-1).reshape(-1, 3)
+    ahead = np.stack([flat * np.cos(grid_yaw), flat * np.sin(grid_yaw), np.sin(grid_pitch)], axis=-1)
+    directions = ahead.reshape(-1, 3)
     rays = len(directions)
     origins = np.repeat(eyes, rays, axis=0)
     ahead = np.tile(directions, (len(eyes), 1))
@@ -38,7 +39,7 @@ def view_yaws(geometry: Geometry, importance_map: ImportanceMap, eyes: NDArray[n
         seen = away < reach
         gain[seen] += importance_map.at(origins[seen] + away * ahead[seen]) - floor
     around = gain.reshape(len(eyes), _YAWS, len(_PITCHES_RAD)).sum(axis=2)
-    half = int(round(_FIELD_OF_VIEW_RAD / (2 * np.pi) * _YAWS / 2))
+    half = round(_FIELD_OF_VIEW_RAD / (2 * np.pi) * _YAWS / 2)
     window = sum(np.roll(around, shift, axis=1) for shift in range(-half, half + 1))
     return np.asarray(yaw[np.argmax(window, axis=1)])
 

@@ -8,8 +8,8 @@ import dataclasses
 
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.geometry import Geometry
 
+from walk_building.geometry import Geometry
 from walk_importance.grid import VoxelGrid
 
 
@@ -23,6 +23,7 @@ class Scene:
         targets: (nx, ny, nz) bool, subset of `free`: what there is to see.
         sources: (nx, ny, nz) bool, subset of `targets`: voxels whose view is computed.
         geometry: The triangles, for the mode that asks them.
+        seed: Of the order in which displacements are sampled, for the mode that does.
     """
 
     grid: VoxelGrid
@@ -30,11 +31,12 @@ class Scene:
     targets: NDArray[np.bool_]
     sources: NDArray[np.bool_]
     geometry: Geometry | None = None
+    seed: int = 0
 
     @staticmethod
-    def of(grid: VoxelGrid, free: NDArray[np.bool_]) -> Scene:
+    def of(grid: VoxelGrid, free: NDArray[np.bool_], seed: int = 0) -> Scene:
         """Returns the source's scene: all free voxels look at all free voxels."""
-        return Scene(grid=grid, free=free, targets=free, sources=free)
+        return Scene(grid=grid, free=free, targets=free, sources=free, seed=seed)
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,7 +17,7 @@ from walk_importance.visibility.sweep import CAPACITY
 _STEPS = 64  # how often progress is told
 
 
-def exact_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+def exact_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     """Yields the visibility map once; see `VisibilityEstimate`.
 
     Two voxels see each other when all voxels that the segment between their centres touches are free.

@@ -16,8 +16,12 @@ def supercover(dx, dy, dz, stride_x, stride_y, stride_z, cells):
     boundary along an axis is crossed at (2k + 1) / (2 |d|), and two of them are ordered by their cross products.
 
     Args:
-        dx, dy, dz: The displacement in voxels.
-        stride_x, stride_y, stride_z: What one voxel along each axis adds to the offset.
+        dx: The displacement along x in voxels.
+        dy: Along y.
+        dz: Along z.
+        stride_x: What one voxel along x adds to the offset.
+        stride_y: Along y.
+        stride_z: Along z.
         cells: (M,) int64, M >= 3 (|dx| + |dy| + |dz|) + 1, written from the start.
     """
     ax, ay, az = abs(dx), abs(dy), abs(dz)

@@ -14,9 +14,10 @@ from walk_importance.visibility.estimate import Scene, VisibilityEstimate, estim
 from walk_importance.visibility.sampling import Shell, shells
 
 _FIRST = 512  # displacements of the first map: well under a second on eight million voxels
+_PIECE = 1 << 18
 
 
-def progressive_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+def progressive_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     """Yields maps of doubling effort, the last of them exact.
 
     With C seen among the k displacements drawn from the D of a shell, a voxel sees about C D / k voxels in that
@@ -25,7 +26,7 @@ def progressive_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEs
     it errs on the safe side.
     """
     counter = PairCounter(scene)
-    parts = shells(counter.layout.shape, seed)
+    parts = shells(counter.layout.shape, scene.seed)
     counts = [counter.new_counts() for _ in parts]
     total = sum(shell.total for shell in parts)
     inside = _flat_mask(scene, counter)
@@ -37,7 +38,8 @@ def progressive_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEs
             counter.add(shell.draw(wanted - shell.drawn), count)
         seen, variance, pull = _combine(parts, counts, inside)
         drawn = sum(shell.drawn for shell in parts)
-        yield estimate(scene, counter.layout.unpack(seen), variance, drawn / max(total, 1), pairs * drawn / max(total, 1))
+        done = drawn / total if total else 1.0
+        yield estimate(scene, counter.layout.unpack(seen), variance, done, pairs * done)
         if drawn >= total:
             return
         budget = 2 * drawn
@@ -66,17 +68,21 @@ def _combine(
 ) -> tuple[NDArray[np.float32], float, NDArray[np.float64]]:
     """Returns the numbers seen, their mean variance over the sources, and each shell's pull on further draws."""
     seen = np.zeros(len(inside), np.float32)
-    variance = 0.0
-    pull = np.zeros(len(parts))
-    for i, (shell, count) in enumerate(zip(parts, counts, strict=True)):
-        k, d = max(shell.drawn, 1), shell.total
-        seen += count * np.float32(d / k)
-        p = count[inside] * np.float32(0.5 / k)
-        # One more success and failure each keep a shell in which nothing was seen yet from being given up.
-        scatter = float(np.mean(p * (1 - p))) + 1.0 / (2 * k + 2) ** 2
-        variance += 2.0 * d * d / k * (1 - shell.drawn / d) * scatter
-        pull[i] = d * np.sqrt(scatter)
-    return seen, variance, pull
+    scatter = np.zeros(len(parts))
+    # Piece by piece, because the float64 in between would be the largest thing in memory.
+    for first in range(0, len(inside), _PIECE):
+        piece = slice(first, first + _PIECE)
+        for i, (shell, count) in enumerate(zip(parts, counts, strict=True)):
+            k = max(shell.drawn, 1)
+            seen[piece] += count[piece] * (shell.total / k)
+            p = count[piece][inside[piece]] * (0.5 / k)
+            scatter[i] += (p * (1 - p)).sum()
+    drawn = np.maximum([shell.drawn for shell in parts], 1)
+    total = np.array([shell.total for shell in parts], dtype=float)
+    # One more success and failure each keep a shell in which nothing was seen yet from being given up.
+    scatter = scatter / max(inside.sum(), 1) + 1.0 / (2 * drawn + 2) ** 2
+    variance = float(np.sum(2.0 * total**2 / drawn * (1 - drawn / total) * scatter))
+    return seen, variance, total * np.sqrt(scatter)
 
 
 def _flat_mask(scene: Scene, counter: PairCounter) -> NDArray[np.bool_]:
@@ -85,4 +91,3 @@ def _flat_mask(scene: Scene, counter: PairCounter) -> NDArray[np.bool_]:
     first = counter.layout.front // 8
     flat = np.unpackbits(bits[first : first + 8 * counter.layout.words], bitorder="little")
     return flat.astype(bool)
-

@@ -11,12 +11,12 @@ from concurrent.futures import ThreadPoolExecutor
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from walk_building.bvh import first_hit
 
+from walk_building.bvh import first_hit
 from walk_importance.visibility.estimate import Scene, VisibilityEstimate, estimate
 
 
-def ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+def ray_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     """Yields the visibility map once, by rays between voxel centres against the triangles.
 
     Free voxels that a wall thinner than a voxel parts see each other here no more than in reality; apart from
@@ -31,7 +31,7 @@ def ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
     yield _as_estimate(scene, sources, seen)
 
 
-def voxel_ray_visibility(scene: Scene, seed: int = 0) -> Iterator[VisibilityEstimate]:
+def voxel_ray_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     """Yields the visibility map once, by a scalar walk from voxel to voxel for every pair.
 
     The same definition of seeing as in the exact mode, by another algorithm: each axis's next boundary is compared

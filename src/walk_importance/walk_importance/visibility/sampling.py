@@ -9,6 +9,8 @@ and shuffled at every node (`owen1995`), so that each displacement is equally li
 
 from __future__ import annotations
 
+import itertools
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +48,7 @@ def shells(shape: tuple[int, int, int], seed: int) -> list[Shell]:
     while len(edges) < _SHELLS and edges[-1] // 2 >= _SMALLEST:
         edges.append(edges[-1] // 2)
     edges = [0, *edges[::-1]]
-    found = [Shell(shape, a, b, seed + 7919 * i) for i, (a, b) in enumerate(zip(edges[:-1], edges[1:], strict=True))]
+    found = [Shell(shape, a, b, seed + 7919 * i) for i, (a, b) in enumerate(itertools.pairwise(edges))]
     return [shell for shell in found if shell.total > 0]
 
 

@@ -30,7 +30,9 @@ def sweep(displacements, chains, targets, sources, strides, front, words, reach,
         chains: (4, 8, B) uint8 free voxels, see `BitLayout.pack_chains`.
         targets: (8, B) uint8 voxels that both ends of a pair must be among, or (8, 0): all.
         sources: (8, B) uint8 voxels that one end of a pair must be among, or (8, 0): all.
-        strides, front, words: Of the layout.
+        strides: (3,) int64 of the layout.
+        front: Of the layout.
+        words: Of the layout.
         reach: (3,) int64 shape of the grid along the layout's axes.
         results: (5, 2 words) uint64, scratch, the first half zero.
         planes: (PLANES, words) uint64 counters.
