@@ -33,6 +33,7 @@ class Recorder(RawSubscriber):
     def _write(self, topic: str, data: bytes, received_ns: int) -> None:
         if topic not in self._seen:
             self._seen.add(topic)
+            self.get_logger().info(f"first of {topic}")
             self._check_type(topic)
         self._writer.write(self._topics[topic], received_ns, data)
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 HOLD_TIMEOUT_S = 10.0
-"""An editor that is silent for so long has lost its keypoint: ten times what an interactive marker's keep-alive takes."""
+"""An editor that is silent for so long has lost its keypoint."""
 
 
 class Holds:

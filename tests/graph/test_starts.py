@@ -1,0 +1,63 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Each node alone: other orders, bad arguments, an end in the middle of work."""
+
+import subprocess
+import sys
+import time
+
+import pytest
+from graph.processes import LIMIT_S, NODES
+
+from walk_ros import conversions as c
+
+pytestmark = pytest.mark.ros
+
+
+def test_started_one_after_the_other_is_heard_has_input(graph, observer):
+    """The other order: each node is done before the next one starts, and must get what was said before it was there."""
+    graph.start("importance")
+    observer.wait(lambda: observer.last("suggested_keypoints"), "suggestions")
+    graph.start("sequencer")
+    observer.wait(lambda: observer.last("tour"), "a tour")
+    graph.start("trajopt")
+    observer.wait(lambda: observer.last("trajectory"), "a trajectory")
+    assert len(c.path_from_msg(observer.last("path")).positions) > 10
+
+
+@pytest.mark.parametrize("name", list(NODES))
+def test_a_node_told_to_end_while_it_works_ends_cleanly(graph, observer, name):
+    if name in graph.processes:
+        graph.kill(name)
+    began_ns = time.time_ns()
+    graph.start(name)
+
+    def says_something():
+        # By its stamp: what the killed one said may still be on its way.
+        new = (m for m in observer.heard["/diagnostics"] if c.stamp_from_msg(m.header.stamp) > began_ns)
+        return any(status.name == f"walk/{name}" for m in new for status in m.status)
+
+    observer.wait(says_something, f"{name} to say something")
+    assert graph.interrupt(name) == 0, graph.log(name)
+    assert "Traceback" not in graph.log(name)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--ros-args", "-p", "walker.radius_m:=9.0"], "walker.radius_m"),
+        (["--ros-args", "-p", "walker.height_m:=0.6"], "height_m"),
+        (["--ros-args", "-r", "nonsense"], "nonsense"),
+    ],
+)
+def test_bad_arguments_end_with_one_sentence_and_code_2(graph, arguments, said):
+    done = subprocess.run(
+        [sys.executable, "-m", NODES["trajopt"], *arguments],
+        env=graph.environment(),
+        capture_output=True,
+        text=True,
+        timeout=LIMIT_S,
+    )
+    assert done.returncode == 2
+    assert said in done.stderr
+    assert "Traceback" not in done.stderr
