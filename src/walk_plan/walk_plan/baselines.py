@@ -51,7 +51,7 @@ def baselines(building: Building, suggestion: Suggestion, tour: Tour, config: Pl
 
 
 def look_targets(suggestion: Suggestion, stands: NDArray[np.float64], order: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Returns what to look at near each keypoint of the order: a point in the direction of its best view, (M, 3) [m]."""
+    """Returns what to look at near each keypoint of the order: a point where most is seen, (M, 3) [m]."""
     x, y, z, w = suggestion.quat_xyzw[order].T
     ahead = np.column_stack([1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)])
     return np.asarray(stands[order] + LOOK_DISTANCE_M * ahead)
@@ -65,9 +65,7 @@ def _spline(building: Building, suggestion: Suggestion, tour: Tour, config: Plan
 
 def _mst_dfs(building: Building, suggestion: Suggestion, tour: Tour, config: PlanConfig) -> Walk:
     # The roadmap and all legs are those of our tour; only the order is another.
-    tree = plan_tour(
-        building, suggestion.positions, dataclasses.replace(config.tour, method="mst_dfs"), previous=tour
-    )
+    tree = plan_tour(building, suggestion.positions, dataclasses.replace(config.tour, method="mst_dfs"), previous=tour)
     path = optimise_path(building, tree.polyline, tree.stands[tree.order], config.trajectory)
     trajectory = time_path(path, config.timing, look_targets(suggestion, tree.stands, tree.order))
     return Walk(name="mst_dfs", path=path.points, trajectory=trajectory)

@@ -54,7 +54,10 @@ def write_glb(path: Path, walkthrough: Walkthrough) -> None:
                    "offset_m_z_up": [float(x) for x in building.model.offset_m]}  # fmt: skip
     _add_building(file, building)
     colour = file.material("Path", _COLOURS["path"])
-    file.node("Path", mesh=file.mesh("Path", *_in_gltf(tube(every(walkthrough.path.points, TUBE_SPACING_M), TUBE_RADIUS_M)), colour))
+    file.node(
+        "Path",
+        mesh=file.mesh("Path", *_in_gltf(tube(every(walkthrough.path.points, TUBE_SPACING_M), TUBE_RADIUS_M)), colour),
+    )
     colour = file.material("Keypoints", _COLOURS["keypoints"])
     ball = file.mesh("Keypoint", *sphere(SPHERE_RADIUS_M), colour)
     for number, position in enumerate(to_gltf(walkthrough.keypoints), start=1):

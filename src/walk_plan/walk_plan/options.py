@@ -69,9 +69,7 @@ def plan_options() -> tuple[PlanOption, ...]:
     names = [_option_name(section, field) for section, _, field in found]
     shared = Counter(names)
     return tuple(
-        PlanOption(
-            name=f"{section}-{name}" if shared[name] > 1 else name, section=section, field=field, config=config
-        )
+        PlanOption(name=f"{section}-{name}" if shared[name] > 1 else name, section=section, field=field, config=config)
         for name, (section, config, field) in zip(names, found, strict=True)
     )
 

@@ -44,7 +44,9 @@ def write_tour_bag(path: Path, walkthrough: Walkthrough) -> None:
 
 WRITERS: dict[str, Callable[[Path, Walkthrough], None]] = {
     "tour.mcap": write_tour_bag,
-    "trajectory.csv": lambda path, walkthrough: write_trajectory_csv(path, walkthrough.building, walkthrough.trajectory),
+    "trajectory.csv": lambda path, walkthrough: write_trajectory_csv(
+        path, walkthrough.building, walkthrough.trajectory
+    ),
     "walkthrough.glb": write_glb,
 }
 """Writers of everything but the report, which is written last because it tells what the others cost."""

@@ -27,10 +27,10 @@ from walk_plan.stages import StageClock
 from walk_plan.walkthrough import Walkthrough
 from walk_sequencer.pipeline import plan_tour
 from walk_sequencer.tour import Tour
+from walk_trajopt.path import OptimisedPath
 from walk_trajopt.pipeline import optimise_path
 from walk_trajopt.timing import time_path
 from walk_trajopt.trajectory import Trajectory
-from walk_trajopt.path import OptimisedPath
 
 
 def plan_walkthrough(

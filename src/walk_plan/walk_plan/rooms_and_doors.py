@@ -59,7 +59,9 @@ def short_order(distance: NDArray[np.float64]) -> NDArray[np.int64]:
 class _Routes:
     """Shortest chains of straight lines from room to room through the middles of doors."""
 
-    def __init__(self, stops: NDArray[np.float64], doors: NDArray[np.float64], pairs: list[tuple[int, int, int]]) -> None:
+    def __init__(
+        self, stops: NDArray[np.float64], doors: NDArray[np.float64], pairs: list[tuple[int, int, int]]
+    ) -> None:
         floor = np.array([min((stops[a, 2], stops[b, 2])) for a, b, _ in pairs])
         self._points = np.vstack([stops, np.column_stack([doors[[d for *_, d in pairs], :2], floor])])
         edges = [(room, len(stops) + k) for k, (a, b, _) in enumerate(pairs) for room in (a, b)]
@@ -107,7 +109,7 @@ def _timed(legs: list[NDArray[np.float64]]) -> Trajectory:
             positions += [leg[-1]] * pause
             angles += list(np.linspace(yaw[k], yaw[k + 1], pause + 1)[1:])
             stop += [True] * pause
-    t = SAMPLE_S * np.arange(len(positions))
+    t = np.arange(len(positions), dtype=np.float64) * SAMPLE_S
     eyes = np.array(positions)
     velocities = np.gradient(eyes, t, axis=0)
     half = np.array(angles) / 2

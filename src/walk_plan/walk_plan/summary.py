@@ -19,7 +19,18 @@ from walk_plan.walkthrough import Walkthrough
 FORMAT = 1
 """Rises when a key of report.json changes its meaning."""
 
-ENGINES = ("numpy", "scipy", "numba", "ompl", "python-fcl", "trimesh", "ifcopenshell", "shapely", "matplotlib", "rosbags")
+ENGINES = (
+    "numpy",
+    "scipy",
+    "numba",
+    "ompl",
+    "python-fcl",
+    "trimesh",
+    "ifcopenshell",
+    "shapely",
+    "matplotlib",
+    "rosbags",
+)
 
 
 def summary(walkthrough: Walkthrough) -> dict[str, Any]:
@@ -45,7 +56,9 @@ def summary(walkthrough: Walkthrough) -> dict[str, Any]:
         "tour": {
             "method": tour.method,
             "length_m": tour.length_m,
-            "unreachable": [{"position_m": _in_file(walkthrough, u.index), "reason": u.reason} for u in tour.unreachable],
+            "unreachable": [
+                {"position_m": _in_file(walkthrough, u.index), "reason": u.reason} for u in tour.unreachable
+            ],
         },
         "trajectory": {
             "points": len(path.points),

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Building
-from walk_importance.keypoints import Suggestion
 from walk_importance.importance_map import ImportanceMap
+from walk_importance.keypoints import Suggestion
 from walk_plan.options import PlanConfig
 from walk_plan.profile import Profile
 from walk_plan.quality import PathQuality

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from walk_plan.quality import PathQuality
 from walk_plan.walkthrough import Walkthrough
@@ -43,12 +44,13 @@ def percent(share: float) -> str:
 
 def quality_rows(qualities: tuple[PathQuality, ...], reachable_rooms: int) -> list[tuple[str, str, list[str]]]:
     """Returns the table that compares walks: for each figure its name, what it means, and its value for each walk."""
-    rows = (
+    rows: tuple[tuple[str, str, Callable[[PathQuality], str]], ...] = (
         ("Length", "metres walked", lambda q: metres(q.length_m, 1)),
         ("Duration", "from first to last viewpoint", lambda q: duration(q.duration_s)),
         ("Collisions", "straight pieces of the path on which the body would meet the building",
          lambda q: f"{q.colliding_segments} of {q.segments}"),
-        ("Tightest spot", "smallest space between body and building; 0 touches", lambda q: centimetres(q.min_clearance_m)),
+        ("Tightest spot", "smallest space between body and building; 0 touches",
+         lambda q: centimetres(q.min_clearance_m)),
         ("Typical space", "mean space beside the body, counted up to 2 m", lambda q: centimetres(q.mean_clearance_m)),
         ("Typical speed", "median while walking", lambda q: f"{q.median_speed_mps:.2f} m/s"),
         ("Highest speed", "", lambda q: f"{q.peak_speed_mps:.2f} m/s"),
@@ -61,7 +63,7 @@ def quality_rows(qualities: tuple[PathQuality, ...], reachable_rooms: int) -> li
         ("Seen on the way", "share of the free space of the reachable rooms", lambda q: percent(q.seen_share)),
         ("Rooms entered", "of the rooms that can be reached", lambda q: f"{len(q.rooms)} of {reachable_rooms}"),
     )  # fmt: skip
-    return [(name, meaning, [str(figure(q)) for q in qualities]) for name, meaning, figure in rows]
+    return [(name, meaning, [figure(q) for q in qualities]) for name, meaning, figure in rows]
 
 
 def headline(walkthrough: Walkthrough) -> str:
@@ -80,7 +82,7 @@ def headline(walkthrough: Walkthrough) -> str:
             f" and keeps at least {centimetres(quality.min_clearance_m)} free."
         )
     else:
-        text += f" For {body} it does not pass freely: {_count(quality.colliding_segments, 'piece')} of the path collide."
+        text += f" For {body} it does not pass freely: {_count(quality.colliding_segments, 'piece')} of it collide."
     unreachable = len(building.rooms) - len(reachable)
     if unreachable:
         text += f" {_count(unreachable, 'room')} cannot be reached on foot from there; the reasons are given below."

@@ -5,10 +5,10 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.font_manager import FontProperties
 from numpy.typing import NDArray
 
@@ -18,7 +18,12 @@ class LabelBoard:
     """The boxes that are taken on one set of axes, in pixels; its limits and size must not change any more."""
 
     axes: Axes
+    renderer: Any = dataclasses.field(init=False)  # of matplotlib, which gives it no type
     boxes: list[tuple[float, float, float, float]] = dataclasses.field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        canvas: Any = self.axes.figure.canvas
+        self.renderer = canvas.get_renderer()
 
     @property
     def pixels_per_point(self) -> float:
@@ -35,11 +40,9 @@ class LabelBoard:
 
     def text_size(self, text: str, size_pt: float, weight: str = "normal") -> tuple[float, float]:
         """Returns the width and height of a text of one or more lines [pixels]."""
-        canvas = self.axes.figure.canvas
-        assert isinstance(canvas, FigureCanvasAgg)
         font = FontProperties(size=size_pt, weight=weight)
         lines = text.split("\n")
-        widths = [canvas.get_renderer().get_text_width_height_descent(line, font, ismath=False)[0] for line in lines]
+        widths = [self.renderer.get_text_width_height_descent(line, font, ismath=False)[0] for line in lines]
         return float(max(widths)), 1.25 * size_pt * len(lines) * self.pixels_per_point
 
     def place(
@@ -75,9 +78,7 @@ class LabelBoard:
 
     def _taken(self, centre: NDArray[np.float64], half: NDArray[np.float64]) -> bool:
         low, high = centre - half, centre + half
-        return any(
-            low[0] < x1 and high[0] > x0 and low[1] < y1 and high[1] > y0 for x0, y0, x1, y1 in self.boxes
-        )
+        return any(low[0] < x1 and high[0] > x0 and low[1] < y1 and high[1] > y0 for x0, y0, x1, y1 in self.boxes)
 
 
 def ring(centre: NDArray[np.float64], radii: tuple[float, ...], count: int = 12) -> NDArray[np.float64]:

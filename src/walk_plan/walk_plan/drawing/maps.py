@@ -5,9 +5,11 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import Colormap
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from numpy.typing import NDArray
@@ -17,46 +19,55 @@ from walk_building.building import Building
 from walk_importance.grid import VoxelGrid
 from walk_importance.importance_map import ImportanceMap
 from walk_plan.drawing import style
-from walk_plan.drawing.floor import shown_places, storey_bounds
+from walk_plan.drawing.floor import storey_bounds
 from walk_plan.profile import storeys_along
 from walk_plan.walkthrough import Walkthrough
 
 _COLUMNS = ("Obstacles", "Distance to the nearest obstacle", "Openness: share of the space in view", "Importance")
 _GAP_IN, _HEAD_IN, _FOOT_IN, _NAME_IN = 0.1, 0.28, 0.5, 0.2
+_PANEL_IN = (style.WIDTH_IN - 3 * _GAP_IN) / 4
 _MAX_PANEL_IN = 3.4
 _WALL_M = 0.6  # how far from where one can stand a wall or a corner may be to be shown
 
 
 def draw_maps(walkthrough: Walkthrough, storeys: list[int]) -> Figure:
     """Returns one picture with a row for each of the storeys and a column for each map, at the height of the eye."""
-    building = walkthrough.building
+    building, grid = walkthrough.building, walkthrough.importance_map.grid
     bounds = [storey_bounds(building, storey) for storey in storeys]
     low = np.min([b[0] for b in bounds], axis=0)
     high = np.max([b[1] for b in bounds], axis=0)
-    panel = (style.WIDTH_IN - 3 * _GAP_IN) / 4
-    tall = min(panel * (high - low)[1] / (high - low)[0], _MAX_PANEL_IN)
+    tall = min(_PANEL_IN * (high - low)[1] / (high - low)[0], _MAX_PANEL_IN)
     row = tall + _NAME_IN
     height = _HEAD_IN + row * len(storeys) + _FOOT_IN
     made = style.figure(style.WIDTH_IN, height)
     layers = [_layers(walkthrough.importance_map, building, storey) for storey in storeys]
     scales = _scales(layers)
-    for r, storey in enumerate(storeys):
-        for c, title in enumerate(_COLUMNS):
+    for column, title in enumerate(_COLUMNS):
+        left = column * (_PANEL_IN + _GAP_IN)
+        _write(made, left + _PANEL_IN / 2, height - 0.14, title, ha="center", va="center")
+        for r, storey in enumerate(storeys):
             bottom = height - _HEAD_IN - (r + 1) * row
-            axes = made.add_axes((c * (panel + _GAP_IN) / style.WIDTH_IN, bottom / height, panel / style.WIDTH_IN, tall / height))
-            image = _draw_map(axes, walkthrough.importance_map.grid, layers[r], c, scales[c])
+            axes = _axes(made, left, bottom, _PANEL_IN, tall)
+            image = _draw_map(axes, grid, layers[r], column, scales[column])
             style.plain_map(axes, low, high)
-            if c == 3:
+            if column == 0:
+                _write(made, 0.0, bottom + tall + 0.04, building.storeys[storey].name, weight="bold")
+            if column == len(_COLUMNS) - 1:
                 _draw_keypoints(axes, walkthrough, storey)
-            if c == 0:
-                made.text(0.0, (bottom + tall + 0.04) / height, building.storeys[storey].name, fontsize=style.NORMAL_PT,
-                          weight="bold")  # fmt: skip
-            if r == 0:
-                x = (c * (panel + _GAP_IN) + panel / 2) / style.WIDTH_IN
-                made.text(x, 1.0 - 0.14 / height, title, ha="center", va="center", fontsize=style.NORMAL_PT)
-            if r == len(storeys) - 1:
-                _draw_scale(made, image, c, c * (panel + _GAP_IN), panel, height)
+        _draw_scale(made, image, column, left)
     return made
+
+
+def _axes(made: Figure, left: float, bottom: float, width: float, height: float) -> Axes:
+    """Adds axes at a place given in inches."""
+    w, h = made.get_figwidth(), made.get_figheight()
+    return made.add_axes((left / w, bottom / h, width / w, height / h))
+
+
+def _write(made: Figure, left: float, bottom: float, text: str, **style_of: Any) -> None:
+    made.text(
+        left / made.get_figwidth(), bottom / made.get_figheight(), text, fontsize=style.NORMAL_PT, **style_of
+    )  # fmt: skip
 
 
 def slice_index(importance_map: ImportanceMap, z_m: float) -> int:
@@ -86,8 +97,9 @@ def _layers(importance_map: ImportanceMap, building: Building, storey: int) -> _
 
 def _over_floor(importance_map: ImportanceMap, building: Building, storey: int) -> NDArray[np.bool_]:
     """Which columns of voxels stand over the storey's floor, over its walls, or over furniture in its middle."""
-    grid = importance_map.grid
-    here = building.surface.places[shown_places(building, storey)]
+    # Tops of furniture too, as long as they are indoors: the space above a bed belongs to its room.
+    surface, grid = building.surface, importance_map.grid
+    here = surface.places[(surface.storey == storey) & (surface.indoor | building.reachable)]
     inside = np.zeros(grid.shape[:2], bool)
     inside[tuple(grid.indices(here)[:, :2].T)] = True
     reach = int(np.ceil(_WALL_M / grid.voxel_size_m))
@@ -108,7 +120,8 @@ def _scales(layers: list[_Layers]) -> list[tuple[float, float]]:
 
 def _draw_map(axes: Axes, grid: VoxelGrid, layers: _Layers, which: int, scale: tuple[float, float]) -> AxesImage:
     if which == 0:
-        shown, colours = np.ma.masked_where(layers.outside & ~layers.solid, layers.solid), style.SOLID
+        shown = np.ma.masked_where(layers.outside & ~layers.solid, layers.solid)
+        colours: Colormap = style.SOLID
     else:
         shown = np.ma.masked_where(layers.outside | layers.solid, layers.values[which - 1])
         colours = style.MAP.with_extremes(bad=(1.0, 1.0, 1.0, 0.0))
@@ -134,14 +147,15 @@ def _draw_keypoints(axes: Axes, walkthrough: Walkthrough, storey: int) -> None:
     )  # fmt: skip
 
 
-def _draw_scale(made: Figure, image: AxesImage, which: int, left: float, panel: float, height: float) -> None:
-    bar = made.add_axes(((left + 0.2 * panel) / style.WIDTH_IN, 0.26 / height, 0.6 * panel / style.WIDTH_IN, 0.08 / height))
+def _draw_scale(made: Figure, image: AxesImage, column: int, left: float) -> None:
+    bar = _axes(made, left + 0.2 * _PANEL_IN, 0.26, 0.6 * _PANEL_IN, 0.08)
     colours = made.colorbar(image, cax=bar, orientation="horizontal")
-    if which == 0:
+    low, high = image.get_clim()
+    if column == 0:
         colours.set_ticks([0.25, 0.75], labels=["free", "solid"])
+    elif column == 2:
+        colours.set_ticks([low, high], labels=[f"{100 * low:.0f} %", f"{100 * high:.0f} % or more"])
     else:
-        low, high = image.get_clim()
-        words = ("none", "far") if which == 1 else (f"{100 * low:.0f} %", f"{100 * high:.0f} % or more") if which == 2 else ("low", "high")
-        colours.set_ticks([low, high], labels=words)
-    colours.outline.set_linewidth(0.4)  # type: ignore[operator]
+        colours.set_ticks([low, high], labels=["none", "far"] if column == 1 else ["low", "high"])
+    colours.outline.set_linewidth(0.4)
     bar.tick_params(labelsize=style.SMALL_PT, length=2, width=0.4, pad=1.5)

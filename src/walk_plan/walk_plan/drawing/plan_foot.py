@@ -42,7 +42,7 @@ def draw_foot(made: Figure, inches_per_m: float, walked: bool) -> None:
     bar = made.add_axes((1.0 - 2.0 / width, 0.2 / height, 1.45 / width, 0.08 / height))
     colours = made.colorbar(ScalarMappable(CLEARANCE_NORM, style.CLEARANCE), cax=bar, orientation="horizontal")
     colours.set_ticks([0.0, 0.5, 1.0], labels=["0", "0.5", "1 m or more"])
-    colours.outline.set_linewidth(0.4)  # type: ignore[operator]
+    colours.outline.set_linewidth(0.4)
     bar.tick_params(labelsize=style.SMALL_PT, length=2, width=0.4, pad=1.5)
     bar.set_title("space beside the body", fontsize=style.SMALL_PT, pad=2.5)
 

@@ -23,7 +23,7 @@ _ROOM_SIZES_PT = (style.SMALL_PT, 6.0, 5.0)
 def label_keypoints(board: LabelBoard, walkthrough: Walkthrough, storey: int) -> None:
     """Draws each keypoint of the storey as a circle with its number; circles that would overlap move aside."""
     keypoints = walkthrough.keypoints
-    here = np.flatnonzero(storeys_along(walkthrough.building, keypoints) == storey) if len(keypoints) else []
+    here = np.flatnonzero(storeys_along(walkthrough.building, keypoints) == storey)
     diameter = 10.5 if len(keypoints) < 100 else 12.5
     box = (diameter * board.pixels_per_point,) * 2
     for i in here:
@@ -62,8 +62,8 @@ def label_passages(
         if found is not None:
             at = board.to_map(found[None, :])[0]
             board.axes.annotate(
-                text, position, xytext=tuple(at), ha="center", va="center", fontsize=style.SMALL_PT, weight="bold",
-                color=style.INK, path_effects=_HALO, zorder=8,
+                text, tuple(position), xytext=tuple(at), ha="center", va="center", fontsize=style.SMALL_PT,
+                weight="bold", color=style.INK, path_effects=_HALO, zorder=8,
                 arrowprops={"arrowstyle": "-", "linewidth": 0.5, "color": style.INK, "shrinkA": 0, "shrinkB": 0},
             )  # fmt: skip
 
@@ -98,7 +98,7 @@ def short_name(name: str, storey: str) -> str:
 
 def _write_room(board: LabelBoard, at: NDArray[np.float64], text: str, size_pt: float, colour: str) -> None:
     board.axes.annotate(
-        text, board.to_map(at[None, :])[0], ha="center", va="center", fontsize=size_pt, color=colour,
+        text, tuple(board.to_map(at[None, :])[0]), ha="center", va="center", fontsize=size_pt, color=colour,
         linespacing=1.1, path_effects=_HALO, zorder=6.5,
     )  # fmt: skip
 

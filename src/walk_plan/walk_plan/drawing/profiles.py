@@ -24,7 +24,7 @@ def draw_profiles(walkthrough: Walkthrough) -> Figure:
     height = _HEAD_IN + rows * _ROW_IN + (rows - 1) * _GAP_IN + _FOOT_IN
     made = style.figure(style.WIDTH_IN, height)
     wide = style.WIDTH_IN - _LEFT_IN - _RIGHT_IN
-    axes = []
+    axes: list[Axes] = []
     for r in range(rows):
         bottom = height - _HEAD_IN - (r + 1) * _ROW_IN - r * _GAP_IN
         box = (_LEFT_IN / style.WIDTH_IN, bottom / height, wide / style.WIDTH_IN, _ROW_IN / height)
@@ -35,9 +35,23 @@ def draw_profiles(walkthrough: Walkthrough) -> Figure:
     _curve(axes[0], profile, floor, "Floor level [m]", (low - 0.3, max(high + 0.3, low + 1.0)))
     tall = walker.eye_height_m
     top = max(tall + 0.3, float(np.nanmax(profile.height_m, initial=tall)) + 0.1)
-    _curve(axes[1], profile, profile.height_m, "Eye above\nthe floor [m]", (max(tall - 0.5, 0.0), min(top, tall + 1.0)), tall)
+    _curve(
+        axes[1],
+        profile,
+        profile.height_m,
+        "Eye above\nthe floor [m]",
+        (max(tall - 0.5, 0.0), min(top, tall + 1.0)),
+        tall,
+    )
     _curve(axes[2], profile, profile.clearance_m, "Space beside\nthe body [m]", (0.0, LIMIT_M))
-    _curve(axes[3], profile, profile.speed_mps, "Speed [m/s]", (0.0, 1.15 * max(profile.speed_mps.max(), 0.1)), config.timing.speed_mps)
+    _curve(
+        axes[3],
+        profile,
+        profile.speed_mps,
+        "Speed [m/s]",
+        (0.0, 1.15 * max(profile.speed_mps.max(), 0.1)),
+        config.timing.speed_mps,
+    )
     turn = np.degrees(profile.turn_rate_radps)
     limit = float(np.degrees(config.timing.max_turn_rate_radps))
     _curve(axes[4], profile, turn, "Turn of the\nview [°/s]", (0.0, 1.15 * max(limit, turn.max())), limit)

@@ -19,9 +19,9 @@ from walk_building.building import Building
 from walk_plan.along import densified, walked_m
 from walk_plan.drawing import style
 from walk_plan.drawing.floor import away_from_floor, storey_bounds, tinted_floor
+from walk_plan.drawing.labels import LabelBoard
 from walk_plan.drawing.plan_foot import CLEARANCE_NORM, draw_foot
 from walk_plan.drawing.plan_labels import label_keypoints, label_passages, label_rooms
-from walk_plan.drawing.labels import LabelBoard
 from walk_plan.profile import storeys_along
 from walk_plan.section import Section, cut
 from walk_plan.walkthrough import Walkthrough

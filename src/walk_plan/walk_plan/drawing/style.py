@@ -37,8 +37,7 @@ WIDTH_IN = 10.4  # of a full-width picture
 
 def figure(width_in: float, height_in: float) -> Figure:
     """Returns an empty figure in the house style."""
-    with matplotlib.rc_context(_RC):
-        made = Figure(figsize=(width_in, height_in))
+    made = Figure(figsize=(width_in, height_in))
     # A canvas of its own measures texts without a window system or a global state.
     FigureCanvasAgg(made)
     return made
@@ -78,13 +77,3 @@ def round_length(length: float) -> float:
     """Returns the largest of 1, 2, 5, 10, 20, … that is not above `length`."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9)))
-
-
-_RC = {
-    "font.size": NORMAL_PT,
-    "text.color": INK,
-    "axes.edgecolor": FAINT,
-    "axes.labelcolor": INK,
-    "xtick.color": FAINT,
-    "ytick.color": FAINT,
-}
