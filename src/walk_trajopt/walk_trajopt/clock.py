@@ -28,7 +28,9 @@ class Clock:
     acceleration_mps2: NDArray[np.float64]  # (k,)
 
 
-def clock_of(heading: Heading, stops_m: NDArray[np.float64], dwell_s: NDArray[np.float64], config: TimingConfig) -> Clock:
+def clock_of(
+    heading: Heading, stops_m: NDArray[np.float64], dwell_s: NDArray[np.float64], config: TimingConfig
+) -> Clock:
     """Returns the clock of a path that stops at some arc lengths.
 
     Args:
@@ -44,7 +46,9 @@ def clock_of(heading: Heading, stops_m: NDArray[np.float64], dwell_s: NDArray[np
         return _at_speed(heading, stops_m, dwell_s, config, config.speed_mps)
     fastest = _at_speed(heading, stops_m, dwell_s, config, config.max_speed_mps)
     if fastest.t_s[-1] > config.duration_s + 1.0:
-        expected = f"at least {fastest.t_s[-1]:.0f} s, or 0: the limits of speed and turn rate allow no less on this path"
+        expected = (
+            f"at least {fastest.t_s[-1]:.0f} s, or 0: the limits of speed and turn rate allow no less on this path"
+        )
         raise ParameterError("duration_s", config.duration_s, expected)
     low, high = 1e-3, config.max_speed_mps
     best = fastest
@@ -70,8 +74,8 @@ def _at_speed(
     dwell = np.zeros(len(limit))
     # The average eats as much of a rest as it lasts.
     np.add.at(dwell, at, dwell_s + smoothing_s)
-    t, arc, speed = _ticks(heading, limit, dwell)
-    return _smoothed(t, arc, speed, smoothing_s)
+    arc, speed = _ticks(heading, limit, dwell)
+    return _smoothed(arc, speed, smoothing_s)
 
 
 def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray[np.float64]:
@@ -83,7 +87,7 @@ def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray
 
 
 @numba.njit(cache=True, nogil=True)
-def _widened(limit, spacing, acceleration, half_s):
+def _widened(limit: NDArray[np.float64], spacing: float, acceleration: float, half_s: float) -> NDArray[np.float64]:
     """Lets each limit hold as far around its place as the walker comes in half the time of the smoothing.
 
     The average over time that follows the passes then stays within the limit that was there before.
@@ -97,7 +101,7 @@ def _widened(limit, spacing, acceleration, half_s):
 
 
 @numba.njit(cache=True, nogil=True)
-def _pass(speed, spacing, acceleration):
+def _pass(speed: NDArray[np.float64], spacing: float, acceleration: float) -> None:
     """Lowers the speeds until neighbours can be reached from each other: once forward, once backward."""
     gain = 2.0 * acceleration * spacing
     for i in range(1, len(speed)):
@@ -108,27 +112,25 @@ def _pass(speed, spacing, acceleration):
 
 def _ticks(
     heading: Heading, speed: NDArray[np.float64], dwell_s: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Returns times, arc lengths and speeds every tick, with constant acceleration between places of the grid."""
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Returns arc lengths and speeds every tick, with constant acceleration between places of the grid."""
     duration = 2.0 * heading.spacing_m / (speed[:-1] + speed[1:])
     arrive = np.concatenate([[0.0], np.cumsum(duration + dwell_s[1:])]) + dwell_s[0]
     arrive[1:] -= dwell_s[1:]
     leave = arrive + dwell_s
     total = leave[-1]
-    t = np.arange(int(np.ceil(total / _TICK_S)) + 1) * _TICK_S
+    t = _TICK_S * np.arange(int(np.ceil(total / _TICK_S)) + 1, dtype=np.float64)
     cell = np.clip(np.searchsorted(leave, t, side="right") - 1, 0, len(duration) - 1)
     since = np.clip(t - leave[cell], 0.0, duration[cell])
     acceleration = (speed[1:] - speed[:-1]) / duration
     arc = heading.arc_m[cell] + speed[cell] * since + 0.5 * acceleration[cell] * since**2
     going = (t >= leave[cell]) & (t <= leave[cell] + duration[cell])
-    return t, np.minimum(arc, heading.arc_m[-1]), np.where(going, speed[cell] + acceleration[cell] * since, 0.0)
+    return np.minimum(arc, heading.arc_m[-1]), np.where(going, speed[cell] + acceleration[cell] * since, 0.0)
 
 
-def _smoothed(
-    t_s: NDArray[np.float64], arc_m: NDArray[np.float64], speed_mps: NDArray[np.float64], smoothing_s: float
-) -> Clock:
+def _smoothed(arc_m: NDArray[np.float64], speed_mps: NDArray[np.float64], smoothing_s: float) -> Clock:
     """Averages arc length over time: speed and acceleration stay within their limits, the jerk gets one."""
-    half = max(int(round(0.5 * smoothing_s / _TICK_S)), 1)
+    half = max(round(0.5 * smoothing_s / _TICK_S), 1)
     arc = np.concatenate([np.full(2 * half, arc_m[0]), arc_m, np.full(2 * half, arc_m[-1])])
     speed = np.concatenate([np.zeros(2 * half), speed_mps, np.zeros(2 * half)])
     window = 2 * half * _TICK_S
@@ -138,4 +140,6 @@ def _smoothed(
     rate = (arc[2 * half :] - arc[: -2 * half]) / window
     change = (speed[2 * half :] - speed[: -2 * half]) / window
     mean = np.maximum.accumulate(np.clip(mean, arc_m[0], arc_m[-1]))
-    return Clock(t_s=np.arange(len(mean)) * _TICK_S, arc_m=mean, speed_mps=rate, acceleration_mps2=change)
+    return Clock(
+        t_s=_TICK_S * np.arange(len(mean), dtype=np.float64), arc_m=mean, speed_mps=rate, acceleration_mps2=change
+    )

@@ -59,7 +59,7 @@ class TrajoptConfig(Config):
     )
     max_iterations: int = param(300, "iterations after which a solver stops", low=0, high=100_000)
     tolerance: float = param(
-        1e-5, "a solver stops when an iteration lowers the cost by less than this share of it", low=1e-15, high=0.1
+        1e-4, "a solver stops when an iteration lowers the cost by less than this share of it", low=1e-15, high=0.1
     )
     chord_error_m: float = param(
         0.003,
@@ -88,32 +88,49 @@ class TimingConfig(Config):
     """The clock and the look direction. No published limits were found for the turn rates: they are our own."""
 
     speed_mps: float = param(1.4, "wished walking speed", unit="m/s", low=0.05, high=3.0)
-    max_speed_mps: float = param(3.0, "speed that is never exceeded, whatever duration is wished", unit="m/s", low=0.05, high=3.0)
+    max_speed_mps: float = param(
+        3.0, "speed that is never exceeded, whatever duration is wished", unit="m/s", low=0.05, high=3.0
+    )
     max_acceleration_mps2: float = param(1.0, "largest change of speed", unit="m/s²", low=0.05, high=10.0)
     max_lateral_acceleration_mps2: float = param(
         2.0, "largest acceleration sideways: it slows the walker down in turns", unit="m/s²", low=0.05, high=20.0
     )
     max_jerk_mps3: float = param(6.0, "largest change of acceleration along the path", unit="m/s³", low=0.2, high=200.0)
     max_turn_rate_radps: float = param(
-        1.57, "fastest turn of the look direction, 90° a second; what makes people sick first", unit="rad/s", low=0.05, high=10.0
+        1.57,
+        "fastest turn of the look direction, 90° a second; what makes people sick first",
+        unit="rad/s",
+        low=0.05,
+        high=10.0,
     )
     max_turn_acceleration_radps2: float = param(
         6.0, "fastest change of the turn rate", unit="rad/s²", low=0.1, high=200.0
     )
-    lookahead_m: float = param(0.4, "how far ahead on the path the look direction is taken", unit="m", low=0.0, high=5.0)
+    lookahead_m: float = param(
+        0.4, "how far ahead on the path the look direction is taken", unit="m", low=0.0, high=5.0
+    )
     look_smoothing_m: float = param(
-        0.7, "length over which the direction of the path is averaged for the look direction", unit="m", low=0.05, high=5.0
+        0.7,
+        "length over which the direction of the path is averaged for the look direction",
+        unit="m",
+        low=0.05,
+        high=5.0,
     )
     look_at_m: float = param(
-        1.5, "distance along the path from a keypoint at which the look begins to turn to what is seen there",
-        unit="m", low=0.0, high=20.0,
+        1.5,
+        "distance along the path from a keypoint at which the look begins to turn to what is seen there",
+        unit="m",
+        low=0.0,
+        high=20.0,
     )
     look_at_share: float = param(
         0.5, "how far the look turns from ahead towards it while walking; at a dwell it turns fully", low=0.0, high=1.0
     )
     max_pitch_rad: float = param(0.2, "steepest look up or down, towards a target", unit="rad", low=0.0, high=1.5)
     dwell_s: float = param(0.0, "time to stand still at each keypoint; 0 walks through", unit="s", low=0.0, high=3600.0)
-    duration_s: float = param(0.0, "wished duration of the whole walk; 0 lets the speed decide", unit="s", low=0.0, high=1e6)
+    duration_s: float = param(
+        0.0, "wished duration of the whole walk; 0 lets the speed decide", unit="s", low=0.0, high=1e6
+    )
     sample_s: float = param(0.05, "longest time between two samples", unit="s", low=0.002, high=0.1)
 
     def __post_init__(self) -> None:

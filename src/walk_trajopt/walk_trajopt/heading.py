@@ -27,7 +27,9 @@ class Heading:
 _BODY_M = 0.2  # over which a bend is averaged: nobody's hips follow a polyline's corners
 
 
-def heading_of(points: NDArray[np.float64], arc_m: NDArray[np.float64], lookahead_m: float, smoothing_m: float) -> Heading:
+def heading_of(
+    points: NDArray[np.float64], arc_m: NDArray[np.float64], lookahead_m: float, smoothing_m: float
+) -> Heading:
     """Returns the directions of a path.
 
     Args:
@@ -46,7 +48,11 @@ def heading_of(points: NDArray[np.float64], arc_m: NDArray[np.float64], lookahea
     if not level.all():
         # Straight up or down there is no direction: the one before, or the first there is, goes on.
         known = np.flatnonzero(level)
-        yaw = yaw[known[np.maximum(np.searchsorted(known, np.arange(len(yaw)), side="right") - 1, 0)]] if len(known) else 0 * yaw
+        yaw = (
+            yaw[known[np.maximum(np.searchsorted(known, np.arange(len(yaw)), side="right") - 1, 0)]]
+            if len(known)
+            else 0 * yaw
+        )
     pitch = np.arctan2(step[:, 2], flat)
     segment = np.clip(np.searchsorted(arc_m, grid, side="right") - 1, 0, len(yaw) - 1)
     along, slope = np.unwrap(yaw)[segment], pitch[segment]

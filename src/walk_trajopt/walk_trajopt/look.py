@@ -88,7 +88,8 @@ def _limited(angle: NDArray[np.float64], clock: Clock, config: TimingConfig) -> 
 
 
 @numba.njit(cache=True, nogil=True)
-def _envelopes(low, high, step):
+def _envelopes(low: NDArray[np.float64], high: NDArray[np.float64], step: float) -> None:
+    """Lowers `low` and raises `high` until neither changes by more than `step` between neighbours."""
     for i in range(1, len(low)):
         low[i] = min(low[i], low[i - 1] + step)
         high[i] = max(high[i], high[i - 1] - step)

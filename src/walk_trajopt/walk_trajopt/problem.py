@@ -20,6 +20,7 @@ class Local:
 
     value: float
     gradient: NDArray[np.float64]  # (n, 3), zero at fixed points
+    push: NDArray[np.float64]  # (n, 3) the pointwise objectives' part of the gradient
     blocks: NDArray[np.float64]  # (n, 3, 3) Gauss–Newton Hessian of the pointwise objectives, zero at fixed points
 
 
@@ -37,17 +38,16 @@ class Problem:
     def __init__(self, setting: Setting, config: TrajoptConfig, fixed: NDArray[np.bool_]) -> None:
         self.setting = setting
         self.fixed = fixed
-        weighted = [(config.weight(name), kind) for name, kind in OBJECTIVES.items() if config.weight(name) > 0.0]
-        objectives = [(weight, kind(setting)) for weight, kind in weighted]
-        self._quadratic = [(w, o) for w, o in objectives if isinstance(o, QuadraticObjective)]
-        self._pointwise = [(w, o) for w, o in objectives if isinstance(o, PointwiseObjective)]
-        self._named: dict[str, tuple[float, Objective]] = {
-            name: pair for name, pair in zip((n for n in OBJECTIVES if config.weight(n) > 0.0), objectives, strict=True)
+        self._objectives: dict[str, tuple[float, Objective]] = {
+            name: (config.weight(name), kind(setting)) for name, kind in OBJECTIVES.items() if config.weight(name) > 0.0
         }
+        self._pointwise = [(w, o) for w, o in self._objectives.values() if isinstance(o, PointwiseObjective)]
         self.bands = np.zeros((3, len(setting.start)))
         self._linear = np.zeros_like(setting.start)
         self._constant = 0.0
-        for weight, objective in self._quadratic:
+        for weight, objective in self._objectives.values():
+            if not isinstance(objective, QuadraticObjective):
+                continue
             product = banded_product(objective.bands, objective.target)
             self.bands += weight * objective.bands
             self._linear += weight * product
@@ -66,22 +66,23 @@ class Problem:
     def linearise(self, x: NDArray[np.float64]) -> Local:
         """Returns cost, gradient and Gauss–Newton blocks at points `x` (n, 3)."""
         value, gradient = self._evaluate_quadratic(x)
-        blocks = np.zeros((len(x), 3, 3))
+        push, blocks = np.zeros_like(x), np.zeros((len(x), 3, 3))
         for weight, objective in self._pointwise:
             scale = weight * self.setting.spacing_m
             r, jacobian = objective.residuals(x)
             value += scale * float(r @ r)
-            gradient += (2.0 * scale * r)[:, None] * jacobian
+            push += (2.0 * scale * r)[:, None] * jacobian
             # Where nothing pushes, nothing stiffens either.
             active = np.where(r != 0.0, 2.0 * scale, 0.0)[:, None, None]
             blocks += active * jacobian[:, :, None] * jacobian[:, None, :]
-        gradient[self.fixed] = 0.0
-        blocks[self.fixed] = 0.0
-        return Local(value=value, gradient=gradient, blocks=blocks)
+        gradient += push
+        for array in (gradient, push, blocks):
+            array[self.fixed] = 0.0
+        return Local(value=value, gradient=gradient, push=push, blocks=blocks)
 
     def costs(self, x: NDArray[np.float64]) -> dict[str, float]:
         """Returns the weighted value of each objective at points `x` (n, 3), by name."""
-        return {name: weight * objective.evaluate(x)[0] for name, (weight, objective) in self._named.items()}
+        return {name: weight * objective.evaluate(x)[0] for name, (weight, objective) in self._objectives.items()}
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         product = banded_product(self.bands, x)

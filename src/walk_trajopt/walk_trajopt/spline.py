@@ -10,7 +10,6 @@ from scipy.interpolate import make_interp_spline
 
 from walk_building.building import Building
 from walk_building.errors import ParameterError
-
 from walk_trajopt.check import PathCheck, colliding_runs
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine

@@ -50,9 +50,7 @@ class State:
         return first, last
 
 
-def initial_state(
-    tour: Polyline, keypoints: NDArray[np.float64], keypoint_m: NDArray[np.float64], n: int
-) -> State:
+def initial_state(tour: Polyline, keypoints: NDArray[np.float64], keypoint_m: NDArray[np.float64], n: int) -> State:
     """Returns the state whose points are on the tour itself."""
     samples = resample(tour, keypoint_m, n)
     return State(
@@ -83,7 +81,7 @@ def bent(
     first, last = state.window(keypoint)
     low, here, high = state.arc_m[first], state.keypoint_m[keypoint], state.arc_m[last]
     shift = position - state.keypoints[keypoint]
-    tour = _bent_tour(state, (low, here, high), position, shift, legs)
+    tour = _bent_tour(state, (low, here, high), shift, legs)
     inner = (tour.arc_m >= low) & (tour.arc_m <= high)
     arc = _arcs(Polyline(tour.points[inner], tour.arc_m[inner]), here, state.arc_m[first : last + 1], spacing_m)
     replanned = any(leg is not None for leg in legs)
@@ -122,7 +120,6 @@ def _hat(arc: NDArray[np.float64], low: float, here: float, high: float) -> NDAr
 def _bent_tour(
     state: State,
     window: tuple[float, float, float],
-    position: NDArray[np.float64],
     shift: NDArray[np.float64],
     legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
 ) -> Polyline:
@@ -156,6 +153,6 @@ def _arcs(piece: Polyline, here: float, old: NDArray[np.float64], spacing_m: flo
         length = float(np.linalg.norm(np.diff(piece.at(arc), axis=0), axis=1).sum())
         spacing = length / (len(own) - 1)
         if not spacing_m / _UNEVEN <= spacing <= spacing_m * _UNEVEN:
-            own = np.linspace(a, b, max(int(round(length / spacing_m)), 1) + 1)
+            own = np.linspace(a, b, max(round(length / spacing_m), 1) + 1)
         sides.append(own)
     return sides[0] if len(sides) == 1 else np.concatenate([sides[0], sides[1][1:]])

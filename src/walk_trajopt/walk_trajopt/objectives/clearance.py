@@ -13,7 +13,7 @@ _AXIS_STEP_M = 0.35  # between looked-at points of the body's axis: less than th
 
 
 class Clearance(PointwiseObjective):
-    """h Σ (D − |x_i − c_i|)² where the distance is below D, else 0; c_i the closest point on the exact geometry. [m³]
+    """h Σ (D − |x_i − c_i|)² where the distance is below D, else 0; c_i closest on the exact geometry [m³].
 
     The closest points are found anew in every evaluation. For the body (our own), c_i is looked for from several
     heights of the body's axis and the largest shortfall counts; D is there limited to the distance that this height

@@ -10,7 +10,7 @@ from walk_trajopt.objectives.base import QuadraticObjective, Setting
 
 
 class Deviation(QuadraticObjective):
-    """h Σ |x_i − x_i⁰|² ≈ ∫ |x − x⁰|² ds; zero on the planned tour itself. [m³]"""
+    """h Σ |x_i − x_i⁰|² ≈ ∫ |x − x⁰|² ds; zero on the planned tour itself [m³]."""
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)

@@ -11,10 +11,10 @@ from walk_trajopt.objectives.base import PointwiseObjective
 
 
 class Height(PointwiseObjective):
-    """h Σ (f(x_i) − H)², f the height above the walkable floor, smooth over steps; zero at eye height. [m³]
+    """h Σ (f(x_i) − H)², f the height above the walkable floor, smooth over steps; zero at eye height [m³].
 
-    The gradient takes the floor around the point as the plane that fits it best. Points without a floor below count
-    as zero: the sweep decides about them.
+    The gradient takes the floor around the point as the plane that fits it best. Where there is no floor below a
+    point, it is wished back to the height of its start: otherwise there would be a way out of this objective.
     """
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -22,7 +22,7 @@ class Height(PointwiseObjective):
         eye = self.setting.walker.eye_height_m
         plane = self.setting.surface.floor_plane(x, eye)
         known = np.isfinite(plane[:, 0])
-        residual = np.where(known, x[:, 2] - plane[:, 0] - eye, 0.0)
+        residual = np.where(known, x[:, 2] - plane[:, 0] - eye, x[:, 2] - self.setting.start[:, 2])
         jacobian = np.column_stack([-plane[:, 1], -plane[:, 2], np.ones(len(x))])
-        jacobian[~known] = 0.0
+        jacobian[~known] = (0.0, 0.0, 1.0)
         return residual, jacobian

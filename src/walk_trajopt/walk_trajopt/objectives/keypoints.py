@@ -11,7 +11,7 @@ from walk_trajopt.objectives.base import PointwiseObjective
 
 
 class Keypoints(PointwiseObjective):
-    """Σ_k max(|x_{i_k} − p_k| − ρ, 0)², a sum over keypoints and so not multiplied by the spacing. [m²]
+    """Σ_k max(|x_{i_k} − p_k| − ρ, 0)², a sum over keypoints and so not multiplied by the spacing [m²].
 
     Zero where each keypoint's point is within the radius ρ of it: a walker need not step on the very spot.
     """

@@ -10,7 +10,7 @@ from walk_trajopt.objectives.base import QuadraticObjective, Setting, difference
 
 
 class Length(QuadraticObjective):
-    """1/h Σ |x_{i+1} − x_i|² ≈ ∫ |x'|² ds; zero where all points are one. [m]"""
+    """1/h Σ |x_{i+1} − x_i|² ≈ ∫ |x'|² ds; zero where all points are one [m]."""
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)

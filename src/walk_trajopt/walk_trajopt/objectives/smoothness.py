@@ -10,7 +10,7 @@ from walk_trajopt.objectives.base import QuadraticObjective, Setting, difference
 
 
 class Smoothness(QuadraticObjective):
-    """1/h³ Σ |x_{i+1} − 2 x_i + x_{i−1}|² ≈ ∫ |x''|² ds; zero on an evenly divided straight line. [1/m]"""
+    """1/h³ Σ |x_{i+1} − 2 x_i + x_{i−1}|² ≈ ∫ |x''|² ds; zero on an evenly divided straight line [1/m]."""
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)

@@ -27,4 +27,6 @@ class Solution:
 class Solver(Protocol):
     """Minimises a problem from `x0` (n, 3), within the iterations and the tolerance of the config."""
 
-    def __call__(self, problem: Problem, x0: NDArray[np.float64], config: TrajoptConfig) -> Solution: ...
+    def __call__(self, problem: Problem, x0: NDArray[np.float64], config: TrajoptConfig) -> Solution:
+        """Returns where it came to rest, the fixed points where they were."""
+        ...

@@ -14,6 +14,8 @@ from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.problem import Problem
 from walk_trajopt.solvers.base import Solution
 
+_RESTARTS = 30
+
 CostAndGradient = Callable[[NDArray[np.float64]], tuple[float, NDArray[np.float64]]]
 
 
@@ -36,9 +38,16 @@ def run_lbfgs(
     Returns:
         Where it ended, the cost there, iterations, evaluations.
     """
-    # A plain iteration of this method lowers the cost far less than one of the others: the same tolerance would
-    # end it early, at a higher cost.
-    options = {"maxiter": config.max_iterations, "maxfun": 10 * config.max_iterations + 10,
-               "ftol": config.tolerance * 0.01, "gtol": 0.0}
-    result = minimize(cost, x0, jac=True, method="L-BFGS-B", options=options)
-    return result.x, float(result.fun), int(result.nit), int(result.nfev)
+    x, value, iterations, evaluations = x0, np.inf, 0, 0
+    for _ in range(_RESTARTS):
+        # A plain iteration of this method lowers the cost far less than one of the others: the same tolerance would
+        # end it early, at a higher cost.
+        options = {"maxiter": config.max_iterations - iterations, "ftol": config.tolerance * 0.01, "gtol": 0.0}
+        result = minimize(cost, x, jac=True, method="L-BFGS-B", options={"maxfun": 1_000_000, **options})
+        gain, x, value = value - float(result.fun), result.x, float(result.fun)
+        iterations, evaluations = iterations + int(result.nit), evaluations + int(result.nfev)
+        # The line search gives up at a kink of the clearance; without its memory the method goes on.
+        failed = result.status == 2
+        if not failed or iterations >= config.max_iterations or gain <= config.tolerance * abs(value):
+            break
+    return x, value, iterations, evaluations

@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Edits: local, checked, refused with a reason, undone bit for bit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from walk_building import BodySweep, Building, ParameterError
+from walk_trajopt.optimiser import Optimiser
+
+
+def eyes(*xy: tuple[float, float]) -> NDArray[np.float64]:
+    return np.array([(x, y, 1.6) for x, y in xy], dtype=np.float64)
+
+
+@pytest.fixture
+def optimiser(hall: Building) -> Optimiser:
+    keypoints = eyes((1, 1), (3, 6), (6, 2), (9, 6), (11, 1))
+    optimiser = Optimiser(hall, keypoints, keypoints)
+    optimiser.solve()
+    optimiser.check()
+    return optimiser
+
+
+def test_an_edit_changes_only_the_legs_beside_it(optimiser: Optimiser, hall: Building) -> None:
+    before = optimiser.path()
+    outcome = optimiser.move_keypoint(3, (9.3, 5.5, 1.6))
+    after = outcome.path
+    assert outcome.accepted and outcome.reason == ""
+    untouched = before.keypoint_index[2] - 20
+    np.testing.assert_array_equal(after.points[:untouched], before.points[:untouched])
+    assert np.linalg.norm(after.points[after.keypoint_index[3]] - (9.3, 5.5, 1.6)) < 0.8
+    assert BodySweep(hall.geometry, hall.walker).segments_free(after.points).all()
+
+
+def test_many_small_drags_end_where_one_large_one_does(optimiser: Optimiser) -> None:
+    start = optimiser.state
+    for t in np.linspace(0.1, 1, 10):
+        assert optimiser.move_keypoint(2, (6 + t, 2 + t, 1.6)).accepted
+    dragged = optimiser.path()
+    optimiser.state = start
+    jumped = optimiser.move_keypoint(2, (7, 3, 1.6)).path
+    assert dragged.total_cost == pytest.approx(jumped.total_cost, rel=0.05)
+    assert np.abs(dragged.length_m - jumped.length_m) < 0.1
+
+
+def test_a_state_taken_back_undoes_bit_for_bit(optimiser: Optimiser) -> None:
+    state, path = optimiser.state, optimiser.path()
+    assert optimiser.move_keypoint(1, (2, 5, 1.6)).accepted
+    assert optimiser.move_keypoint(4, (11, 2, 1.6)).accepted
+    optimiser.state = state
+    np.testing.assert_array_equal(optimiser.path().points, path.points)
+
+
+def test_ends_can_be_moved(optimiser: Optimiser) -> None:
+    assert optimiser.move_keypoint(0, (1, 3, 1.6)).accepted
+    path = optimiser.move_keypoint(4, (10, 0.5, 1.6)).path
+    np.testing.assert_allclose(path.points[[0, -1]], eyes((1, 3), (10, 0.5)), atol=1e-6)
+
+
+def test_a_long_drag_brings_its_own_points(optimiser: Optimiser) -> None:
+    count = len(optimiser.state.x)
+    assert optimiser.move_keypoint(1, (1, 7.5, 1.6)).accepted
+    assert optimiser.move_keypoint(2, (11, 7, 1.6)).accepted
+    spacing = np.linalg.norm(np.diff(optimiser.state.start, axis=0), axis=1)
+    assert len(optimiser.state.x) != count and spacing.max() < 1.6 * np.median(spacing)
+
+
+def test_an_edit_without_a_way_keeps_the_last_path_and_says_why(screen: Building) -> None:
+    keypoints = eyes((1, 1), (2, 3), (1, 5))
+    optimiser = Optimiser(screen, keypoints, keypoints)
+    optimiser.solve()
+    before = optimiser.check()
+    through_the_screen = optimiser.move_keypoint(1, (6, 3, 1.6))
+    assert not through_the_screen.accepted and "touch" in through_the_screen.reason
+    outside = optimiser.move_keypoint(1, (20, 3, 1.6))
+    assert not outside.accepted and "no floor" in outside.reason
+    np.testing.assert_array_equal(optimiser.path().points, before.points)
+
+
+def test_a_replanned_leg_takes_the_place_of_a_bent_one(screen: Building) -> None:
+    keypoints = eyes((1, 1), (2, 3), (1, 5))
+    optimiser = Optimiser(screen, keypoints, keypoints)
+    optimiser.solve()
+    optimiser.check()
+    there = eyes((1, 1), (3.4, 4.7), (4, 5), (4.6, 4.7), (6, 3))
+    back = eyes((6, 3), (4.6, 4.7), (4, 5), (3.4, 4.9), (1, 5))
+    outcome = optimiser.move_keypoint(1, (6, 3, 1.6), before=there, after=back)
+    assert outcome.accepted, outcome.reason
+    assert BodySweep(screen.geometry, screen.walker).segments_free(outcome.path.points).all()
+    assert outcome.path.points[:, 0].max() > 5.2
+
+
+def test_bad_edits_are_named(optimiser: Optimiser) -> None:
+    with pytest.raises(ParameterError, match="index below 5"):
+        optimiser.move_keypoint(5, (1, 1, 1.6))
+    with pytest.raises(ParameterError, match="finite"):
+        optimiser.move_keypoint(1, (np.nan, 1, 1.6))
