@@ -54,10 +54,8 @@ def write_glb(path: Path, walkthrough: Walkthrough) -> None:
                    "offset_m_z_up": [float(x) for x in building.model.offset_m]}  # fmt: skip
     _add_building(file, building)
     colour = file.material("Path", _COLOURS["path"])
-    file.node(
-        "Path",
-        mesh=file.mesh("Path", *_in_gltf(tube(every(walkthrough.path.points, TUBE_SPACING_M), TUBE_RADIUS_M)), colour),
-    )
+    vertices, faces = tube(every(walkthrough.path.points, TUBE_SPACING_M), TUBE_RADIUS_M)
+    file.node("Path", mesh=file.mesh("Path", to_gltf(vertices), faces, colour))
     colour = file.material("Keypoints", _COLOURS["keypoints"])
     ball = file.mesh("Keypoint", *sphere(SPHERE_RADIUS_M), colour)
     for number, position in enumerate(to_gltf(walkthrough.keypoints), start=1):
@@ -86,7 +84,3 @@ def _add_camera(file: GltfFile, samples: PoseSamples) -> None:
     camera = file.camera("Walker's eye", _FIELD_OF_VIEW_RAD)
     node = file.node("Walker's eye", camera=camera, translation=positions[0], rotation=turns[0])
     file.animation("Walk", node, samples.t_s - samples.t_s[0], positions, turns)
-
-
-def _in_gltf(shape: tuple[NDArray[np.float64], NDArray[np.int64]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    return to_gltf(shape[0]), shape[1]

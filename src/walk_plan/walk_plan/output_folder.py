@@ -72,6 +72,6 @@ class OutputFolder:
                 target = self.path / made.name
                 if target.is_dir() and not target.is_symlink():
                     shutil.rmtree(target)
-                os.replace(made, target)
+                made.replace(target)
         except OSError as error:
             raise OutputError(self.path, f"cannot be written ({error.strerror}); choose another folder") from error

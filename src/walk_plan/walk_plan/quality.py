@@ -139,7 +139,7 @@ def flat_height_std(building: Building, eyes: NDArray[np.float64]) -> float:
 def flat_floor(building: Building, eyes: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Returns at which of the evenly spaced eyes (n, 3) the floor is flat for a while before and behind, (n,)."""
     floor = building.surface.floor_z(eyes, building.walker.eye_height_m)
-    reach = max(int(round(LEVEL_RUN_M / SAMPLE_SPACING_M)), 1)
+    reach = max(round(LEVEL_RUN_M / SAMPLE_SPACING_M), 1)
     padded = np.pad(floor, reach, mode="edge")
     around = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1)
     # A comparison with nan is false: no floor is not flat.

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
@@ -31,7 +33,7 @@ def rooms_and_doors(building: Building) -> Trajectory | None:
     order = short_order(np.linalg.norm(stops[:, None] - stops[None], axis=2))
     doors = np.array([door.centre for door in building.model.doors]).reshape(-1, 3)
     routes = _Routes(stops, doors, _room_pairs(building, rooms))
-    legs = [routes.between(a, b) + [0.0, 0.0, EYE_M] for a, b in zip(order[:-1], order[1:], strict=True)]
+    legs = [routes.between(a, b) + [0.0, 0.0, EYE_M] for a, b in itertools.pairwise(order)]
     return _timed([leg for leg in legs if np.any(leg[0] != leg[-1])])
 
 
