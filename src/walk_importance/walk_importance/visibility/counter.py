@@ -16,7 +16,8 @@ from walk_importance.visibility.bits import BitLayout
 from walk_importance.visibility.estimate import Scene
 from walk_importance.visibility.sweep import CAPACITY, PLANES, flush, sweep
 
-_SCRATCH_BYTES = 24  # per voxel that all threads together may use for their counters
+_SMALL = 4_000_000  # voxels; up to here every core takes part, above as many as keep the memory in bounds
+_SCRATCH_BYTES = 6  # per voxel that all threads together may then use for their counters
 _THREAD_BYTES = (5 * 2 + PLANES) / 8
 
 
@@ -35,7 +36,7 @@ class PairCounter:
         self._targets = none if whole else self.layout.pack(scene.targets)
         self._sources = none if scene.sources is scene.targets else self.layout.pack(scene.sources)
         cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        small = scene.grid.size < 1_000_000
+        small = scene.grid.size <= _SMALL
         self.threads = cores if small else max(1, min(cores, int(_SCRATCH_BYTES / _THREAD_BYTES)))
         self._scratch: queue.SimpleQueue[tuple[NDArray[np.uint64], NDArray[np.uint64]]] = queue.SimpleQueue()
         for _ in range(self.threads):

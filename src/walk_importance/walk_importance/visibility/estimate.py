@@ -58,18 +58,17 @@ class VisibilityEstimate:
     pairs: float
 
 
-def estimate(
-    scene: Scene, seen: NDArray[np.float64] | NDArray[np.int32], variance: float, done: float, pairs: float
-) -> VisibilityEstimate:
-    """Turns numbers of seen voxels (nx, ny, nz) and their mean variance into an estimate."""
+def estimate(scene: Scene, seen: NDArray[np.float32], variance: float, done: float, pairs: float) -> VisibilityEstimate:
+    """Turns numbers of seen voxels (nx, ny, nz), which are overwritten, and their mean variance into an estimate."""
     others = max(int(scene.targets.sum()) - 1, 1)
-    share = np.where(scene.sources, seen, 0).astype(np.float32)
+    share = seen
+    share[~scene.sources] = 0
     share /= np.float32(others)
     inside = share[scene.sources]
     return VisibilityEstimate(
         share=share,
         stderr=float(np.sqrt(variance) / others),
-        spread=float(inside.std()) if len(inside) else 0.0,
+        spread=float(inside.std(dtype=np.float64)) if len(inside) else 0.0,
         done=done,
         pairs=pairs,
     )

@@ -30,7 +30,7 @@ def exact_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
         displacements = nth_displacements(first, min(first + step, total), np.array(counter.layout.shape))
         counter.add(displacements, counts)
     n = float(scene.targets.sum())
-    yield estimate(scene, counter.layout.unpack(counts), 0.0, 1.0, n * (n - 1) / 2)
+    yield estimate(scene, counter.layout.unpack(counts).astype(np.float32), 0.0, 1.0, n * (n - 1) / 2)
 
 
 def half_space(shape: tuple[int, int, int]) -> int:

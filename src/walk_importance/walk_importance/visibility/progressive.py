@@ -39,7 +39,8 @@ def progressive_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
         seen, variance, pull = _combine(parts, counts, inside)
         drawn = sum(shell.drawn for shell in parts)
         done = drawn / total if total else 1.0
-        yield estimate(scene, counter.layout.unpack(seen), variance, done, pairs * done)
+        seen = counter.layout.unpack(seen)
+        yield estimate(scene, seen, variance, done, pairs * done)
         if drawn >= total:
             return
         budget = 2 * drawn

@@ -58,7 +58,7 @@ def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> NDArray[np.
 
 
 def _as_estimate(scene: Scene, sources: NDArray[np.int64], seen: NDArray[np.int64]) -> VisibilityEstimate:
-    counts = np.zeros(scene.grid.shape)
+    counts = np.zeros(scene.grid.shape, np.float32)
     counts[tuple(sources.T)] = seen
     n = float(scene.targets.sum())
     return estimate(scene, counts, 0.0, 1.0, n * (n - 1) / 2)

@@ -15,7 +15,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-_SHELLS = 5  # each half as wide as the next: the near ones, which rooms are made of, get their share of samples
+_SHELLS = 4  # each half as wide as the next: the near ones, which rooms are made of, get their share of samples
 _SMALLEST = 4  # voxels; below it a shell is complete after a few hundred displacements anyway
 
 
