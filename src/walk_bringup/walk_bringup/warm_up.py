@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -31,37 +30,36 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "two_rooms.obj"
         file.write_text("\n".join(two_rooms_obj()) + "\n", encoding="utf-8")
-        for percent, stage in run(file):
-            print(percent, stage, flush=True)
+        run(file)
 
 
-def run(file: Path) -> Iterator[tuple[int, str]]:
-    """Runs the method on a building file stage by stage, yielding what comes next."""
-    # Each import is a stage's own: what is slow to load is part of what the user waits for.
-    yield 0, "walk_building"
-    from walk_building.model import LoadOptions
-    from walk_building.pipeline import load_building
-
-    building = load_building(file, LoadOptions(units_m=1.0, up="z"))
-    yield 30, "walk_importance"
-    from walk_importance.config import ImportanceConfig, KeypointConfig
-    from walk_importance.pipeline import compute_importance, suggest_keypoints
-
-    for visibility in ("progressive", "exact", "rays"):
-        importance = compute_importance(building, ImportanceConfig(voxel_size_m=0.5, visibility=visibility))
-    keypoints = suggest_keypoints(building, importance, KeypointConfig(count=4))
-    yield 60, "walk_sequencer"
+def run(file: Path) -> None:
+    """Plans a walk through a building file, then takes the ways that a plan does not take by itself."""
+    _tell(0, "imports")
+    # Imported here: it is the slow part, and part of what the progress is about.
+    from walk_importance.config import ImportanceConfig
+    from walk_importance.pipeline import compute_importance
+    from walk_plan.options import PlanConfig
+    from walk_plan.pipeline import make_walkthrough
+    from walk_plan.stages import STAGES, StageClock
     from walk_sequencer.config import SequencerConfig
     from walk_sequencer.pipeline import plan_tour
 
-    for method in ("exact", "local_search"):
-        tour = plan_tour(building, keypoints.positions, SequencerConfig(milestones=100, method=method))
-    yield 75, "walk_trajopt"
-    from walk_trajopt.config import TimingConfig, TrajoptConfig
-    from walk_trajopt.pipeline import optimise_path, time_path
+    def progress(stage: str, fraction: float) -> None:
+        if fraction == 0.0:
+            _tell(5 + 80 * STAGES.index(stage) // len(STAGES), stage)
 
-    path = optimise_path(building, tour.polyline, keypoints.positions[tour.order], TrajoptConfig())
-    time_path(path, TimingConfig())
+    walkthrough = make_walkthrough(file, PlanConfig(), StageClock(progress))
+    building = walkthrough.building
+    for percent, visibility in ((85, "exact"), (90, "rays")):
+        _tell(percent, f"{visibility} visibility")
+        compute_importance(building, ImportanceConfig(voxel_size_m=0.5, visibility=visibility))
+    _tell(95, "local search")
+    plan_tour(building, walkthrough.suggestion.positions, SequencerConfig(milestones=100, method="local_search"))
+
+
+def _tell(percent: int, stage: str) -> None:
+    print(percent, stage, flush=True)
 
 
 def two_rooms_obj() -> Iterator[str]:
@@ -77,4 +75,4 @@ def two_rooms_obj() -> Iterator[str]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
