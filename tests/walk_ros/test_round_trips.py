@@ -9,6 +9,7 @@ import pytest
 from sensor_msgs.msg import PointField
 
 from walk_ros import conversions as c
+from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
 from walk_ros.conversions.paths import headings
 from walk_ros.raw import from_bytes, to_bytes
 from walk_ros.topics import type_name
@@ -190,3 +191,14 @@ def test_edit_result_arrives_as_sent(outcome):
         outcome=outcome, keypoint="3", client_id="anna", reason=reason, revision_ns=STAMP, edit_stamp_ns=5
     )
     assert c.edit_result_from_msg(over_the_wire(c.edit_result_to_msg(result))) == result
+
+
+@pytest.mark.parametrize("rows", [0, 1, 2, 17])
+def test_bytes_written_in_place_are_the_same_messages(trajectory, rows):
+    few = SimpleNamespace(**{name: values[:rows] for name, values in vars(trajectory).items()})
+    walk = (few.t_s, few.positions, few.quat_xyzw, STAMP)
+    assert from_bytes(path_to_bytes(*walk), "nav_msgs/msg/Path") == c.path_to_msg(*walk)
+    kind = "trajectory_msgs/msg/MultiDOFJointTrajectory"
+    assert from_bytes(trajectory_to_bytes(few, STAMP), kind) == c.trajectory_to_msg(few, STAMP)
+    assert len(path_to_bytes(*walk)) == len(to_bytes(c.path_to_msg(*walk)))
+    assert len(trajectory_to_bytes(few, STAMP)) == len(to_bytes(c.trajectory_to_msg(few, STAMP)))

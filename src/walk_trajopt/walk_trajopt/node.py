@@ -29,7 +29,7 @@ from walk_ros.conversions import (
 )
 from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
-from walk_ros.results import path_messages
+from walk_ros.results import path_bytes, path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.optimiser import Optimiser
@@ -155,7 +155,7 @@ class TrajoptNode(WalkNode):
         targets = look_targets(self._optimiser.state.keypoints, self._plan.keypoints.quat_xyzw)
         trajectory = time_path(path, timing, look_at=targets)
         stamp_ns = self.revision()
-        self.publish_all(path_messages(trajectory, stamp_ns))
+        self.publish_all(path_bytes(trajectory, stamp_ns))
         sentence = f"{path.length_m:.1f} m in {trajectory.duration_s:.0f} s, {len(path.repaired)} stretches repaired"
         if path.colliding:
             touching = "; ".join(str(stretch) for stretch in path.colliding)
