@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from walk_sequencer.ground import Ground, walk_line
 
 _EQUAL = 1e-9
+_STRAIGHT = 1.01
 _LEAST_GAIN = 1e-3  # [m] of cost; what is less is not worth a walk
 _PASSES = 2  # a third gains less than 0.1 % of the length
 
@@ -60,6 +61,7 @@ def _skip(ground, way, n):  # type: ignore[no-untyped-def]
 
 @numba.njit(cache=True, nogil=True)
 def _flat(way, k, point):  # type: ignore[no-untyped-def]
+    """Distance in plan from vertex k to a point."""
     return np.sqrt((way[k, 1] - point[0]) ** 2 + (way[k, 2] - point[1]) ** 2)
 
 
@@ -67,6 +69,8 @@ def _flat(way, k, point):  # type: ignore[no-untyped-def]
 def _pull(ground, way, k):  # type: ignore[no-untyped-def]
     """Moves vertex k to where the walk over it costs least, by ever smaller steps; returns whether it moved."""
     best = _hop(ground, way, k - 1, k) + _hop(ground, way, k, k + 1)
+    if best < _STRAIGHT * _flat(way, k - 1, way[k + 1, 1:]):
+        return False  # nearly straight: there is nothing to gain
     moved = False
     stride = 4
     while stride > 0:
