@@ -84,9 +84,7 @@ def test_value_and_gradient_are_zero_at_the_stated_optimum(
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_value_does_not_depend_on_the_number_of_points(
-    name: str, sloping: Building, make_setting: MakeSetting
-) -> None:
+def test_value_does_not_depend_on_the_number_of_points(name: str, sloping: Building, make_setting: MakeSetting) -> None:
     values = []
     for n in (101, 401):
         start = line(n, (3, 0.6), (9, 0.6))

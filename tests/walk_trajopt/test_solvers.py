@@ -100,4 +100,6 @@ def test_the_default_is_no_worse_than_the_source_where_a_door_is_narrower_than_w
 def test_no_iterations_leave_the_start(name: str, hall: Building, make_setting: MakeSetting) -> None:
     start = np.column_stack([np.linspace(2, 8, 10), np.full(10, 4.0), np.full(10, 1.6)])
     config = TrajoptConfig(solver=name, max_iterations=0)
-    np.testing.assert_allclose(SOLVERS[name](Problem(make_setting(hall, start), config, ends(10)), start, config).x, start)
+    np.testing.assert_allclose(
+        SOLVERS[name](Problem(make_setting(hall, start), config, ends(10)), start, config).x, start
+    )

@@ -15,6 +15,7 @@ from walk_trajopt.config import TimingConfig
 from walk_trajopt.heading import Heading
 
 _TICK_S = 0.01
+_APART = 3  # places of the grid between two rests, at least
 _CREEP_MPS = 0.05  # slowest speed in the tightest turn: a corner of a polyline is passed, not stopped at
 
 
@@ -67,15 +68,29 @@ def _at_speed(
     smoothing_s = 2.0 * config.max_acceleration_mps2 / config.max_jerk_mps3
     limit = _limits(heading, config, speed_mps)
     limit = _widened(limit, heading.spacing_m, config.max_acceleration_mps2, 0.5 * smoothing_s)
-    limit[0] = limit[-1] = 0.0
-    at = np.rint(stops_m / heading.spacing_m).astype(np.int64)
-    limit[at] = 0.0
+    at, rest_s = _rests(np.rint(stops_m / heading.spacing_m).astype(np.int64), dwell_s, len(limit))
+    limit[at] = limit[0] = limit[-1] = 0.0
     _pass(limit, heading.spacing_m, config.max_acceleration_mps2)
     dwell = np.zeros(len(limit))
     # The average eats as much of a rest as it lasts.
-    np.add.at(dwell, at, dwell_s + smoothing_s)
+    dwell[at] = rest_s + smoothing_s
     arc, speed = _ticks(heading, limit, dwell)
     return _smoothed(arc, speed, smoothing_s)
+
+
+def _rests(
+    at: NDArray[np.int64], dwell_s: NDArray[np.float64], cells: int
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Returns the grid places of the rests and their times, those too near to each other to walk between as one."""
+    rests: dict[int, float] = {}
+    last = -_APART
+    for place, dwell in zip(at.tolist(), dwell_s.tolist(), strict=True):
+        # Both ends are rests of their own.
+        here = 0 if place < _APART else cells - 1 if place > cells - 1 - _APART else place
+        here = last if here - last < _APART else here
+        rests[here] = rests.get(here, 0.0) + dwell
+        last = here
+    return np.array(list(rests), dtype=np.int64), np.array(list(rests.values()), dtype=np.float64)
 
 
 def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray[np.float64]:

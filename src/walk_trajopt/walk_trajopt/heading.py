@@ -24,6 +24,7 @@ class Heading:
     bend: NDArray[np.float64]  # (g,) curvature of the path, vertical bends included [1/m]
 
 
+_LEAST_CELLS = 9  # a path of centimetres still has somewhere to speed up and slow down
 _BODY_M = 0.2  # over which a bend is averaged: nobody's hips follow a polyline's corners
 
 
@@ -39,7 +40,7 @@ def heading_of(
         smoothing_m: Standard deviation of the Gaussian that smooths the look direction.
     """
     count = int(np.ceil(arc_m[-1] / GRID_M)) + 1
-    grid = np.linspace(0.0, arc_m[-1], max(count, 2))
+    grid = np.linspace(0.0, arc_m[-1], max(count, _LEAST_CELLS))
     spacing = float(grid[1])
     step = np.diff(points, axis=0)
     flat = np.hypot(step[:, 0], step[:, 1])

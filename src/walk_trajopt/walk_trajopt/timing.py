@@ -79,11 +79,12 @@ def _samples(
     clock: Clock, arc_m: NDArray[np.float64], step_s: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Returns rising times and the arc lengths there: an even grid, and the moment at each point of the path."""
-    even = np.linspace(0.0, clock.t_s[-1], int(np.ceil(clock.t_s[-1] / step_s)) + 1)
+    # A little closer than asked, so that one may give way to a point of the path beside it.
+    even = np.linspace(0.0, clock.t_s[-1], int(np.ceil(clock.t_s[-1] / max(step_s - _APART_S, 0.5 * step_s))) + 1)
     # Arc length does not rise while the walker stands; the first moment at a place is the one that counts.
     rising = np.concatenate([[True], np.diff(clock.arc_m) > 1e-12])
     passed = np.interp(arc_m[1:-1], clock.arc_m[rising], clock.t_s[rising])
-    apart = np.concatenate([[True], np.diff(passed) > _APART_S])
+    apart = np.diff(passed, prepend=-np.inf) > _APART_S
     passed, passed_m = passed[apart], arc_m[1:-1][apart]
     near = np.abs(even[:, None] - _nearest(passed, even)[:, None])[:, 0] if len(passed) else np.full(len(even), np.inf)
     keep = near > _APART_S
