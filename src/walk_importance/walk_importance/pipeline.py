@@ -89,6 +89,13 @@ def _geometry_maps(
     return blocked, _sealed(blocked.astype(np.float32)), _sealed(distance)
 
 
+def visibility_scene(building: Building, config: ImportanceConfig) -> Scene:
+    """Returns the question that the modes of visibility answer for a building, for measuring and testing them."""
+    grid, _ = fit_grid(building.geometry.bounds, config.voxel_size_m, config.max_voxels)
+    triangles = building.model.vertices[building.model.faces]
+    return _scene(building, grid, ~obstacle_voxels(grid, triangles), config)
+
+
 def _scene(building: Building, grid: VoxelGrid, free: NDArray[np.bool_], config: ImportanceConfig) -> Scene:
     targets = indoor_voxels(building, grid, free) if config.free_space == "indoors" else free
     if not targets.any():

@@ -13,7 +13,8 @@ from walk_importance.visibility.counter import PairCounter
 from walk_importance.visibility.estimate import Scene, VisibilityEstimate, estimate
 from walk_importance.visibility.sampling import Shell, shells
 
-_FIRST = 512  # displacements of the first map: well under a second on eight million voxels
+_FIRST = 512  # displacements of the first map, fewer on a grid so large that it would take over a second
+_FIRST_VOXELS = 1_000_000_000  # displacements times voxels of the first map at most
 _PIECE = 1 << 18
 
 
@@ -31,7 +32,7 @@ def progressive_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     total = sum(shell.total for shell in parts)
     inside = _flat_mask(scene, counter)
     pull = np.array([float(shell.total) ** 0.5 for shell in parts])
-    budget = _FIRST
+    budget = int(np.clip(_FIRST_VOXELS / scene.grid.size, 64, _FIRST))
     pairs = float(scene.targets.sum()) * (float(scene.targets.sum()) - 1) / 2
     while True:
         for shell, count, wanted in zip(parts, counts, _shares(parts, pull, budget), strict=True):

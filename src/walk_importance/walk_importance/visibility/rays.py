@@ -23,12 +23,8 @@ def ray_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
     that the word-parallel modes ask the same of the voxels instead. Takes a microsecond a pair, so hours for a
     house at 0.25 m.
     """
-    assert scene.geometry is not None
     sources = np.argwhere(scene.sources)
-    targets = np.argwhere(scene.targets)
-    start, end = scene.grid.centres(sources), scene.grid.centres(targets)
-    seen = in_chunks(_triangle_rays, len(sources), scene.geometry.bvh, start, end)
-    yield _as_estimate(scene, sources, seen)
+    yield _as_estimate(scene, sources, count_triangle_rays(scene, sources))
 
 
 def voxel_ray_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
@@ -45,6 +41,13 @@ def voxel_ray_visibility(scene: Scene) -> Iterator[VisibilityEstimate]:
 def count_voxel_rays(scene: Scene, sources: NDArray[np.int64]) -> NDArray[np.int64]:
     """Returns the number of other target voxels that each of `sources` (N, 3) sees, by scalar voxel walks."""
     return in_chunks(_voxel_rays, len(sources), np.ascontiguousarray(scene.free), sources, np.argwhere(scene.targets))
+
+
+def count_triangle_rays(scene: Scene, sources: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Returns the number of other target voxels that each of `sources` (N, 3) sees, by rays against the triangles."""
+    assert scene.geometry is not None
+    start, goal = scene.grid.centres(sources), scene.grid.centres(np.argwhere(scene.targets))
+    return in_chunks(_triangle_rays, len(sources), scene.geometry.bvh, start, goal)
 
 
 def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> NDArray[np.int64]:
