@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from walk_sequencer.journal import Journal, JournalError, default_state_dir
 from walk_sequencer.keypoints import Keypoints, changed, move_entry, order_entry, suggested_entry
 

@@ -13,15 +13,13 @@ from walk_building.building import Building
 def eye_over_floor(building: Building, point: ArrayLike) -> NDArray[np.float64]:
     """Returns the eye position (3,) over the floor that lies below a point (3,) [m].
 
-    A hand lifts a keypoint off its height or pushes it down; what it means is the place on the floor. Where nothing
+    A hand lifts a keypoint off its height or lowers it; what it means is the place on the floor. Where nothing
     lies below within the height of a storey, the point is returned as it is.
     """
     eye = np.array(point, dtype=np.float64)
-    # From a little above, so that a point pushed into the floor still finds it.
-    above = eye + [0.0, 0.0, building.walker.step_m]
-    drop = float(building.geometry.height_above_floor(above[None])[0])
+    drop = float(building.geometry.height_above_floor(eye[None])[0])
     if drop <= 2 * building.walker.eye_height_m:
-        eye[2] = above[2] - drop + building.walker.eye_height_m
+        eye[2] += building.walker.eye_height_m - drop
     eye.setflags(write=False)
     return eye
 

@@ -85,6 +85,9 @@ class SequencerNode(WalkNode):
         """Publishes no keypoints and an empty tour."""
         self.publish_all(tour_messages(None, NO_POINTS, NO_TURNS, (), (), stamp_ns, sorted(self._shown)))
         self._shown = set()
+        if self._authority is not None:
+            # Nothing is shown now, so the next step plans and publishes again, whatever it is about.
+            self._authority.planned = None
         while self._edits:
             edit, _ = self._edits.popleft()
             self._reply(str(edit.keypoint), edit, Outcome.REFUSED, "the sequencer has no tour: see /diagnostics")

@@ -94,7 +94,8 @@ class TrajoptNode(WalkNode):
         self._optimiser, self._solved_for = None, ()
 
     def fail(self, stamp_ns: int) -> None:
-        """Publishes an empty path and trajectory."""
+        """Publishes an empty path and trajectory; the next step solves again, whatever it is about."""
+        self._solved_for = ()
         self.publish_all(path_messages(None, stamp_ns))
 
     def supersedes(self, groups: frozenset[str]) -> bool:
@@ -118,7 +119,6 @@ class TrajoptNode(WalkNode):
         began = self.now_s()
         self._optimiser = None
         if len(np.unique(plan.polyline, axis=0)) < 2:
-            self._solved_for = ()
             self.fail(self.revision())
             self.diagnostics.state("idle", "the tour has no length: nothing to walk", level="warn", code="empty_tour")
             return
