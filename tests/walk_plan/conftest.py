@@ -26,4 +26,3 @@ def rooms_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def walkthrough(rooms_file: Path) -> Walkthrough:
     """The plan of the two rooms."""
     return make_walkthrough(rooms_file, PlanConfig(), StageClock(lambda stage, fraction: None))
-

@@ -39,4 +39,4 @@ def tube(points: NDArray[np.float64], radius_m: float, sides: int = 6) -> Triang
     far = np.stack([first + n, first + sides + n, first + sides + k], axis=2).reshape(-1, 3)
     fan = np.column_stack([np.zeros(sides - 2, int), np.arange(1, sides - 1), np.arange(2, sides)])
     last = fan[:, ::-1] + (len(points) - 1) * sides
-    return vertices, np.vstack([near, far, fan, last])
+    return vertices, np.vstack([near[:, ::-1], far[:, ::-1], fan, last])

@@ -17,6 +17,10 @@ STAGES = ("load", "importance", "keypoints", "tour", "trajectory", "timing", "me
 """The stages of a plan in their order, as the progress callback and the report name them."""
 
 
+_PIECES = {"roadmap": (0.0, 0.3), "legs": (0.3, 0.9), "order": (0.9, 1.0)}
+"""Stages that report their pieces one after the other, each from 0 to 1: where in the whole a piece lies."""
+
+
 class StageClock:
     """Times the stages of one plan and tells the progress callback when each starts and ends.
 
@@ -33,7 +37,16 @@ class StageClock:
         """Times the body of the `with`; gives it a progress callback that reports under the stage's name."""
         self._progress(name, 0.0)
         started = time.perf_counter()
-        yield lambda _, fraction: self._progress(name, min(max(fraction, 0.0), 0.999))
+        furthest = 0.0
+
+        def told(piece: str, fraction: float) -> None:
+            # A bar that goes back, or that is full before the end, tells nothing.
+            nonlocal furthest
+            begin, end = _PIECES.get(piece, (0.0, 1.0))
+            furthest = max(furthest, min(begin + (end - begin) * fraction, 0.999))
+            self._progress(name, furthest)
+
+        yield told
         self.seconds[name] = time.perf_counter() - started
         self._progress(name, 1.0)
 
