@@ -172,3 +172,11 @@ def test_a_tall_walker_fits_under_less() -> None:
     tall = prepare_building(model_of(meshes), LoadOptions(), Walker())
     assert small.rooms[0].area_m2 > 18 > tall.rooms[0].area_m2
     assert small.hash != tall.hash
+
+
+def test_the_inside_of_a_block_is_no_room_but_that_of_a_single_sheet_is() -> None:
+    platform = box((-0.2, 4.2, 0), (6.2, 10, 2.5))
+    building = building_of([*shell(6, 4), platform])
+    assert building.surface.places[building.reachable, 1].max() < 4
+    sheet = building_of([trimesh.creation.box(bounds=[(0, 0, 0), (6, 4, 3)])])
+    assert len(sheet.rooms) == 1 and sheet.rooms[0].reachable
