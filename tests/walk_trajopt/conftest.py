@@ -48,7 +48,7 @@ def make_setting() -> MakeSetting:
             "spacing_m": float(length) / (len(start) - 1),
             "keypoints": start[[0, len(start) // 2]],
             "keypoint_index": np.array([0, len(start) // 2]),
-            "keypoint_radius_m": 0.1,
+            "keypoint_radius_m": np.array([0.1, 0.1]),
             "geometry": building.geometry,
             "surface": building.surface,
             "walker": building.walker,

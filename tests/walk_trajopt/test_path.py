@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -33,7 +35,7 @@ def densely_free(building: Building, points: NDArray[np.float64]) -> NDArray[np.
     sweep = BodySweep(building.geometry, building.walker)
     return np.array(
         [(sweep.standing_clearance(a + np.linspace(0, 1, 60)[:, None] * (b - a)) > 1e-4).all()
-         for a, b in zip(points[:-1], points[1:], strict=True)]
+         for a, b in itertools.pairwise(points)]
     )  # fmt: skip
 
 

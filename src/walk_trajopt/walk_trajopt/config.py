@@ -38,10 +38,14 @@ class TrajoptConfig(Config):
     weight_clearance: float = param(50.0, "push away from what is nearer than clearance_m", low=0.0, high=1e6)
     weight_height: float = param(100.0, "pull towards the eye height above the floor", low=0.0, high=1e6)
     weight_keypoints: float = param(
-        10.0, "pull towards keypoints that are missed by more than keypoint_radius_m (our own)", low=0.0, high=1e6
+        20.0, "pull towards keypoints that are missed by more than keypoint_radius_m (our own)", low=0.0, high=1e6
     )
     keypoint_radius_m: float = param(
-        0.5, "how near to a keypoint the path has to pass, so that it can turn there", unit="m", low=0.0, high=10.0
+        0.5,
+        "how near to a keypoint the path passes, so that it can turn there; half the room around it where that is less",
+        unit="m",
+        low=0.0,
+        high=10.0,
     )
     clearance_m: float = param(
         0.42, "wished distance D between the body's axis, or the eye, and the building", unit="m", low=0.0, high=10.0

@@ -147,6 +147,12 @@ class Optimiser:
         x[low:high] = solution.x
         return dataclasses.replace(solution, x=x)
 
+    def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""
+        surface = self._building.surface
+        places = surface.nearest(keypoints - np.array([0.0, 0.0, self._building.walker.eye_height_m]))
+        return np.minimum(self.config.keypoint_radius_m, 0.5 * surface.clearance_m[places])
+
     def _setting(self, state: State, low: int, high: int) -> Setting:
         inside = (state.keypoint_index >= low) & (state.keypoint_index < high)
         return Setting(
@@ -154,7 +160,7 @@ class Optimiser:
             spacing_m=self._spacing_m,
             keypoints=state.keypoints[inside],
             keypoint_index=state.keypoint_index[inside] - low,
-            keypoint_radius_m=self.config.keypoint_radius_m,
+            keypoint_radius_m=self._radii(state.keypoints[inside]),
             geometry=self._building.geometry,
             surface=self._building.surface,
             walker=self._building.walker,

@@ -28,7 +28,7 @@ class Setting:
     spacing_m: float  # h, the mean distance between neighbours of `start`
     keypoints: NDArray[np.float64]  # (M, 3) [m]
     keypoint_index: NDArray[np.int64]  # (M,) the point of each
-    keypoint_radius_m: float  # ρ
+    keypoint_radius_m: NDArray[np.float64]  # (M,) ρ of each
     geometry: Geometry
     surface: WalkableSurface
     walker: Walker
