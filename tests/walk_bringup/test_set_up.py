@@ -129,12 +129,14 @@ def test_failure_of_pip_is_explained(output: str, expected: str) -> None:
     assert expected in installation.explain(output)
 
 
-def test_half_installed_package_is_dropped_and_others_stay(tmp_path: Path) -> None:
+def test_half_installed_packages_are_dropped_and_whole_ones_stay(tmp_path: Path) -> None:
     site = tmp_path / ".venv" / "lib" / "python3.12" / "site-packages"
-    for name, files in {"whole": ("METADATA", "RECORD"), "half": ("METADATA",)}.items():
-        (site / f"{name}-1.dist-info").mkdir(parents=True)
-        for file in files:
-            (site / f"{name}-1.dist-info" / file).touch()
+    records = {"whole": "whole/x.py,,\nwhole-1.dist-info/INSTALLER,,\n", "cut": "cut/x.py,,\n", "cut_early": None}
+    for name, record in records.items():
+        info = site / f"{name}-1.dist-info"
+        info.mkdir(parents=True)
+        if record is not None:
+            (info / "RECORD").write_text(record)
     installation._drop_half_installed(Layout(tmp_path))
     assert [path.name for path in site.iterdir()] == ["whole-1.dist-info"]
 

@@ -96,10 +96,12 @@ def _counter(line: StageLine) -> Callable[[str], None]:
 
 
 def _drop_half_installed(layout: Layout) -> None:
-    # pip writes RECORD last; without it a package killed half-way would count as installed.
+    # pip unpacks the wheel's own RECORD early and counts a package by it as installed; what it writes last is a
+    # RECORD that lists the INSTALLER too, so a package killed half-way is told by that.
     for folder in site_packages(layout):
         for info in folder.glob("*.dist-info"):
-            if not (info / "RECORD").exists():
+            record = info / "RECORD"
+            if not record.exists() or "/INSTALLER," not in record.read_text(encoding="utf-8"):
                 shutil.rmtree(info)
 
 
