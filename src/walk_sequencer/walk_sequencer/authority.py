@@ -57,7 +57,11 @@ class Authority:
 
     def plan(self, config: SequencerConfig, progress: Progress = no_progress, *, anew: bool = False) -> Planned:
         """Plans the tour; the order stays as it is unless there is none yet or `anew` asks for another."""
-        planned = self._planned(self.keypoints, config, progress, anew=anew)
+        if anew or not self.keypoints.order:
+            self._confirm(self._planned(self.keypoints, config, progress, anew=True))
+        # Legs are planned in the direction of the rows, so the legs of a new order are planned once more along it:
+        # what is shown is then, bit for bit, what a sequencer started again plans from the journal.
+        planned = self._planned(self.keypoints, config, progress)
         self._confirm(planned)
         return planned
 
