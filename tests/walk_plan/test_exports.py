@@ -57,7 +57,7 @@ def test_csv_rows_are_at_most_a_tenth_of_a_second_apart_and_rise(walkthrough: Wa
     write_trajectory_csv(path, walkthrough.building, dataclasses.replace(walkthrough.trajectory, **sparse))
     table = np.loadtxt(path, delimiter=",", skiprows=1)
     steps = np.diff(table[:, 0])
-    assert 0.0 < steps.min() and steps.max() <= 0.1
+    assert steps.min() > 0.0 and steps.max() <= 0.1
     assert np.linalg.norm(table[:, 4:8], axis=1) == pytest.approx(np.ones(len(table)), abs=1e-6)
 
 

@@ -15,6 +15,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from walk_building.building import Room
 from walk_plan import wording
 from walk_plan.drawing import style
 from walk_plan.drawing.floor import shown_places
@@ -58,12 +59,12 @@ def context(walkthrough: Walkthrough, summary: dict[str, Any]) -> dict[str, Any]
     """Returns what the template shows."""
     building = walkthrough.building
     storeys = shown_storeys(walkthrough)
-    reachable = sum(room.reachable for room in building.rooms)
+    reachable = frozenset(index for index, room in enumerate(building.rooms) if room.reachable)
     rows = wording.quality_rows(walkthrough.qualities, reachable)
     return {
         "title": building.model.source.stem.replace("_", " "),
         "headline": wording.headline(walkthrough),
-        "tiles": _tiles(walkthrough, reachable),
+        "tiles": _tiles(walkthrough, len(reachable)),
         "plans": [_plan(walkthrough, storey) for storey in storeys],
         "maps": picture(draw_maps(walkthrough, storeys), "", "Maps of obstacles, distance, openness and importance"),
         "profiles": picture(draw_profiles(walkthrough), "", "Level, height, space, speed and turn over the walk"),
@@ -121,13 +122,19 @@ def _tiles(walkthrough: Walkthrough, reachable: int) -> list[tuple[str, str]]:
 
 
 def _rooms(walkthrough: Walkthrough) -> list[dict[str, Any]]:
+    """Returns for each storey the rooms that are visited, and those that are not by reason."""
     building = walkthrough.building
     table = []
     for storey, level in enumerate(building.storeys):
         visits = [visit for visit in walkthrough.visits if building.rooms[visit.room].storey == storey]
+        missed: dict[str, list[Room]] = {}
+        for visit in visits:
+            if not visit.entered:
+                missed.setdefault(visit.reason, []).append(building.rooms[visit.room])
+        visited = [(building.rooms[visit.room], visit.keypoints) for visit in visits if visit.entered]
         if visits:
-            rows = [{"room": building.rooms[visit.room], "visit": visit} for visit in visits]
-            table.append({"name": level.name, "rows": rows})
+            reasons = [(reason[:1].upper() + reason[1:].rstrip("."), rooms) for reason, rooms in missed.items()]
+            table.append({"name": level.name, "visited": visited, "missed": reasons})
     return table
 
 

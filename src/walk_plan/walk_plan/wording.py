@@ -42,8 +42,13 @@ def percent(share: float) -> str:
     return "–" if math.isnan(share) else f"{100 * share:.0f} %"
 
 
-def quality_rows(qualities: tuple[PathQuality, ...], reachable_rooms: int) -> list[tuple[str, str, list[str]]]:
-    """Returns the table that compares walks: for each figure its name, what it means, and its value for each walk."""
+def quality_rows(qualities: tuple[PathQuality, ...], reachable: frozenset[int]) -> list[tuple[str, str, list[str]]]:
+    """Returns the table that compares walks: for each figure its name, what it means, and its value for each walk.
+
+    Args:
+        qualities: Of the walks.
+        reachable: Rooms that can be reached; a walk through walls may enter others, which does not count.
+    """
     rows: tuple[tuple[str, str, Callable[[PathQuality], str]], ...] = (
         ("Length", "metres walked", lambda q: metres(q.length_m, 1)),
         ("Duration", "from first to last viewpoint", lambda q: duration(q.duration_s)),
@@ -61,7 +66,7 @@ def quality_rows(qualities: tuple[PathQuality, ...], reachable_rooms: int) -> li
          lambda q: centimetres(q.height_deviation_m)),
         ("Eye height on flat floors", "standard deviation", lambda q: centimetres(q.flat_height_std_m)),
         ("Seen on the way", "share of the free space of the reachable rooms", lambda q: percent(q.seen_share)),
-        ("Rooms entered", "of the rooms that can be reached", lambda q: f"{len(q.rooms)} of {reachable_rooms}"),
+        ("Rooms entered", "of the rooms that can be reached", lambda q: f"{len(reachable & set(q.rooms))} of {len(reachable)}"),
     )  # fmt: skip
     return [(name, meaning, [figure(q) for q in qualities]) for name, meaning, figure in rows]
 
