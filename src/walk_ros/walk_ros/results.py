@@ -151,7 +151,7 @@ def path_messages(trajectory: TrajectoryLike | None, stamp_ns: int) -> TopicMess
 
 
 def path_bytes(trajectory: TrajectoryLike, stamp_ns: int) -> list[tuple[str, bytes]]:
-    """Returns what `path_messages` returns, serialised: 0.07 ms instead of 26 for 300 rows, and an edit waits for it."""
+    """Returns what `path_messages` returns, serialised: 0.07 ms, not 26, for 300 rows; edits wait for it."""
     return [
         ("path", path_to_bytes(trajectory.t_s, trajectory.positions, trajectory.quat_xyzw, stamp_ns)),
         ("trajectory", trajectory_to_bytes(trajectory, stamp_ns)),
