@@ -30,7 +30,7 @@ def _source(root: Path, path: str, text: str, header: str = SPDX) -> None:
     ],
 )
 def test_ros_is_found_in_a_core_and_allowed_in_a_node(line: str, tmp_path: Path) -> None:
-    _source(tmp_path, "walk_plan/core.py", f"def f():\n    {line}\n")
+    _source(tmp_path, "walk_plan/core.py", f"def f() -> None:\n    {line}\n")
     _source(tmp_path, "walk_plan/node.py", f"{line}\n")
     _source(tmp_path, "walk_ros/any.py", f"{line}\n")
     broken = broken_rules(Layout(tmp_path))
@@ -54,3 +54,12 @@ def test_second_file_with_an_engine_is_found(lines: tuple[str, str], tmp_path: P
 def test_missing_header_is_found(tmp_path: Path) -> None:
     _source(tmp_path, "walk_plan/core.py", "x = 1\n", header="")
     assert broken_rules(Layout(tmp_path)) == ["src/walk_plan/walk_plan/core.py:1: the SPDX header is missing"]
+
+
+def test_function_without_annotations_is_found_unless_numba_compiles_it(tmp_path: Path) -> None:
+    _source(
+        tmp_path,
+        "walk_plan/core.py",
+        "@numba.njit(cache=True)\ndef kernel(a):\n    return a\n\ndef plain(a):\n    return a\n",
+    )
+    assert broken_rules(Layout(tmp_path)) == ["walk_plan/core.py:7: plain lacks annotations; only numba's kernels may"]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -13,8 +14,8 @@ from walk_bringup.bootstrap.layout import Layout
 ENGINES = ("ompl", "scipy.optimize", "fcl", "trimesh", "ifcopenshell", "collada", "rosbags", "fcpw", "aiohttp")
 """Libraries that stand behind names of the project: each is imported in one file."""
 
-ENGINE_EXCEPTIONS = ("walk_plan/bench", "walk_bringup/sample/")
-"""Measurements compare with the plain use of a library; the sample's script writes what the loader reads."""
+ENGINE_EXCEPTIONS = (r"\w+/bench(\.py|/.*)", r"walk_bringup/sample/.*")
+"""Patterns of paths: measurements use a library plainly to compare; the sample script writes what the loader reads."""
 
 ROS_FOLDERS = ("walk_ros/", "walk_bag/", "walk_vr_bridge/")
 """Packages that are about ROS; elsewhere only files named node.py import it."""
@@ -29,7 +30,7 @@ _SPDX = (
 def broken_rules(layout: Layout) -> list[str]:
     """Returns a sentence for every place that breaks a rule."""
     imports = {path: list(_imports(file)) for path, file in _sources(layout)}
-    return [*_headers(layout), *_ros_at_the_rim(imports), *_one_engine_one_file(imports)]
+    return [*_headers(layout), *_ros_at_the_rim(imports), *_one_engine_one_file(imports), *_not_annotated(layout)]
 
 
 def _sources(layout: Layout) -> Iterator[tuple[str, Path]]:
@@ -71,10 +72,31 @@ def _one_engine_one_file(imports: dict[str, list[tuple[int, str]]]) -> Iterator[
         users = [
             path
             for path, found in imports.items()
-            if any(_is_of(module, engine) for _, module in found) and not path.startswith(ENGINE_EXCEPTIONS)
+            if any(_is_of(module, engine) for _, module in found) and not _is_exception(path)
         ]
         if len(users) > 1:
             yield f"{engine} is imported in {', '.join(users)}; one engine, one file"
+
+
+def _is_exception(path: str) -> bool:
+    return any(re.fullmatch(pattern, path) for pattern in ENGINE_EXCEPTIONS)
+
+
+def _not_annotated(layout: Layout) -> Iterator[str]:
+    for path, file in _sources(layout):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and not _is_kernel(node) and not _is_annotated(node):
+                yield f"{path}:{node.lineno}: {node.name} lacks annotations; only numba's kernels may"
+
+
+def _is_kernel(function: ast.FunctionDef) -> bool:
+    return any("jit" in ast.unparse(decorator) for decorator in function.decorator_list)
+
+
+def _is_annotated(function: ast.FunctionDef) -> bool:
+    every = [*function.args.posonlyargs, *function.args.args, *function.args.kwonlyargs]
+    every += [extra for extra in (function.args.vararg, function.args.kwarg) if extra is not None]
+    return function.returns is not None and all(arg.annotation or arg.arg in ("self", "cls") for arg in every)
 
 
 def _headers(layout: Layout) -> Iterator[str]:
