@@ -24,6 +24,7 @@ import trimesh
 from walk_building.building import Building
 from walk_building.errors import WalkError
 from walk_building.pipeline import load_building
+from walk_building.progress import no_progress
 from walk_importance.bench import bench as bench_importance
 from walk_importance.visibility import Scene
 from walk_importance.visibility.rays import count_voxel_rays
@@ -64,7 +65,7 @@ def bench_plan(path: Path, repeats: int) -> dict[str, Any]:
 
 
 def _stages(path: Path) -> tuple[Walkthrough, dict[str, float]]:
-    clock = StageClock(lambda stage, fraction: None)
+    clock = StageClock(no_progress)
     walkthrough = make_walkthrough(path, PlanConfig(), clock)
     return walkthrough, dict(clock.seconds)
 

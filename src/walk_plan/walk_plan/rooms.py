@@ -49,6 +49,13 @@ def room_visits(
     visits = []
     for index, room in enumerate(building.rooms):
         here = index in entered
-        reason = "" if here else skipped.get(index) or room.reason or "No keypoint was placed in it."
-        visits.append(RoomVisit(room=index, keypoints=tuple(numbers.get(index, ())), entered=here, reason=reason))
+        passed = tuple(numbers.get(index, ()))
+        reason = "" if here else skipped.get(index) or room.reason or _not_entered(passed)
+        visits.append(RoomVisit(room=index, keypoints=passed, entered=here, reason=reason))
     return tuple(visits)
+
+
+def _not_entered(keypoints: tuple[int, ...]) -> str:
+    if not keypoints:
+        return "no viewpoint was placed in it"
+    return "the smoothed walk turns round at its door, just before viewpoint " + ", ".join(map(str, keypoints))

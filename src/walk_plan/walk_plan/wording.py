@@ -66,7 +66,8 @@ def quality_rows(qualities: tuple[PathQuality, ...], reachable: frozenset[int]) 
          lambda q: centimetres(q.height_deviation_m)),
         ("Eye height on flat floors", "standard deviation", lambda q: centimetres(q.flat_height_std_m)),
         ("Seen on the way", "share of the free space of the reachable rooms", lambda q: percent(q.seen_share)),
-        ("Rooms entered", "of the rooms that can be reached", lambda q: f"{len(reachable & set(q.rooms))} of {len(reachable)}"),
+        ("Rooms entered", "of the rooms that can be reached",
+         lambda q: f"{len(reachable & set(q.rooms))} of {len(reachable)}"),
     )  # fmt: skip
     return [(name, meaning, [figure(q) for q in qualities]) for name, meaning, figure in rows]
 
