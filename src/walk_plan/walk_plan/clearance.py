@@ -23,6 +23,7 @@ class SideClearance:
 
     The body's distance to all geometry would not tell it: the floor is never farther away than a step. Among
     stretched heights, whatever is not level with the body is far, so the nearest triangle is the nearest to the side.
+    The body's rounded lower end counts from half its height: on a stair the next two steps are no obstacles.
     """
 
     def __init__(self, building: Building) -> None:
@@ -41,7 +42,7 @@ class SideClearance:
         squared = np.empty(len(feet))
         limit = (0.0, (LIMIT_M + walker.radius_m) ** 2)
         in_chunks(
-            standing_clearances, len(feet), self._geometry.bvh, feet, _STRETCH * walker.step_m,
+            standing_clearances, len(feet), self._geometry.bvh, feet, _STRETCH * (walker.step_m + walker.radius_m / 2),
             _STRETCH * walker.height_m, limit, squared,
         )  # fmt: skip
         return np.asarray(np.maximum(np.sqrt(squared) - walker.radius_m, 0.0))
