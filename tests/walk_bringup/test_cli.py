@@ -10,12 +10,13 @@ import time
 from pathlib import Path
 
 import pytest
+import yaml
 
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli import executables as lookup
 from walk_bringup.cli.main import group, main
-from walk_bringup.cli.up import parameters_by_node, ros_arguments
+from walk_bringup.cli.up import overrides_yaml, ros_arguments
 from walk_plan.options import plan_options
 
 SOURCES = [str(path) for path in sorted((Path(__file__).resolve().parents[2] / "src").iterdir())]
@@ -79,16 +80,21 @@ def test_plan_offers_an_option_for_every_field_of_the_configs(capsys: pytest.Cap
     assert missing == []
 
 
-def test_parameters_go_to_the_node_they_name() -> None:
+def test_parameters_go_to_the_node_they_name_with_their_types() -> None:
     nodes = ["importance", "trajopt"]
-    found = parameters_by_node(("trajopt.timing.speed_mps=1.0", "importance.load.ignore=a=b"), nodes)
-    assert found == {"importance": ["-p", "load.ignore:=a=b"], "trajopt": ["-p", "timing.speed_mps:=1.0"]}
+    given = ("trajopt.timing.speed_mps=1.0", "importance.load.ignore=a=b", "importance.load.furniture=false")
+    entries = yaml.safe_load(overrides_yaml(given, nodes))
+    read = {node: entry["ros__parameters"] for node, entry in entries.items()}
+    assert read == {
+        "/**/trajopt": {"timing.speed_mps": 1.0},
+        "/**/importance": {"load.ignore": "a=b", "load.furniture": False},
+    }
 
 
 @pytest.mark.parametrize("param", ["speed", "trajopt=1", "nobody.x=1", "trajopt.x=", ".x=1"])
 def test_parameters_that_do_not_read_are_refused(param: str) -> None:
     with pytest.raises(SetupError, match="--param"):
-        parameters_by_node((param,), ["trajopt"])
+        overrides_yaml((param,), ["trajopt"])
 
 
 def test_building_is_handed_on_as_an_absolute_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+import json
 import os
+import re
+import tempfile
 from pathlib import Path
 
 import click
@@ -43,18 +46,23 @@ def up(building: Path | None, params: tuple[str, ...], params_file: Path | None,
     """
     nodes = NODES | {name: package for name, package in OPTIONAL_NODES.items() if executables(package)}
     shared = ros_arguments(building, params_file, namespace, log_level)
-    own = parameters_by_node(params, list(nodes))
-    children = [
-        Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *own[name]))
-        for name, package in nodes.items()
-    ]
-    supervisor = Supervisor(children)
-    supervisor.start()
-    domain = os.environ.get("ROS_DOMAIN_ID", "0")
-    supervisor.say(f"walk: {', '.join(nodes)} started on {building or 'the sample building'}, ROS domain {domain}.")
-    supervisor.say(f"walk: topics under /{namespace.strip('/')}: {TOPICS}.")
-    supervisor.say("walk: Ctrl-C stops all.")
-    supervisor.wait()
+    with tempfile.TemporaryDirectory(prefix="walk_") as folder:
+        own = Path(folder) / "params.yaml"
+        own.write_text(overrides_yaml(params, list(nodes)), encoding="utf-8")
+        # The last file wins; a plain `-p` would lose against the same parameter in --params-file.
+        last = ["--params-file", str(own)] if params else []
+        supervisor = Supervisor(
+            [
+                Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last))
+                for name, package in nodes.items()
+            ]
+        )
+        supervisor.start()
+        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        supervisor.say(f"walk: {', '.join(nodes)} started on {building or 'the sample building'}, ROS domain {domain}.")
+        supervisor.say(f"walk: topics under /{namespace.strip('/')}: {TOPICS}.")
+        supervisor.say("walk: Ctrl-C stops all.")
+        supervisor.wait()
     if supervisor.failed:
         supervisor.say(f"walk: ended; {', '.join(supervisor.failed)} had ended before.")
         return 1
@@ -79,19 +87,24 @@ def ros_arguments(building: Path | None, params_file: Path | None, namespace: st
     return arguments
 
 
-def parameters_by_node(params: tuple[str, ...], nodes: list[str]) -> dict[str, list[str]]:
-    """Returns the ROS arguments for parameters given as NODE.NAME=VALUE.
+def overrides_yaml(params: tuple[str, ...], nodes: list[str]) -> str:
+    """Returns a parameter file for parameters given as NODE.NAME=VALUE.
 
     Raises:
         SetupError: One of them reads otherwise or names no node.
     """
-    arguments: dict[str, list[str]] = {node: [] for node in nodes}
+    found: dict[str, list[str]] = {}
     for param in params:
         target, equals, value = param.partition("=")
         node, dot, name = target.partition(".")
         if not (equals and dot and name and value):
             raise SetupError(f"--param {param!r} does not read NODE.NAME=VALUE, such as trajopt.timing.speed_mps=1.0")
-        if node not in arguments:
+        if node not in nodes:
             raise SetupError(f"--param {param!r}: there is no node {node!r}; nodes: {', '.join(nodes)}")
-        arguments[node] += ["-p", f"{name}:={value}"]
-    return arguments
+        found.setdefault(node, []).append(f"    {name}: {_scalar(value)}")
+    return "".join("\n".join([f"/**/{node}:", "  ros__parameters:", *lines, ""]) for node, lines in found.items())
+
+
+def _scalar(value: str) -> str:
+    # Numbers and truth values as they are, everything else as a text that YAML cannot misread.
+    return value if re.fullmatch(r"true|false|[-+]?\d+(\.\d*)?([eE][-+]?\d+)?", value) else json.dumps(value)
