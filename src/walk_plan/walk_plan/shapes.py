@@ -5,17 +5,27 @@
 from __future__ import annotations
 
 import numpy as np
-import trimesh
 from numpy.typing import NDArray
 
 Triangles = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices (V, 3) [m] and faces (F, 3)."""
 
 
-def sphere(radius_m: float) -> Triangles:
-    """Returns a sphere around the origin."""
-    ball = trimesh.creation.icosphere(subdivisions=2, radius=radius_m)
-    return np.asarray(ball.vertices), np.asarray(ball.faces)
+def sphere(radius_m: float, rings: int = 8, sides: int = 12) -> Triangles:
+    """Returns a sphere around the origin: rings of corners between two poles, faces turned outwards."""
+    polar = np.linspace(0.0, np.pi, rings + 1)[1:-1, None]
+    angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)[None, :]
+    ring = np.stack(
+        [np.sin(polar) * np.cos(angle), np.sin(polar) * np.sin(angle), np.cos(polar) * np.ones_like(angle)], axis=2
+    )
+    vertices = np.vstack([ring.reshape(-1, 3), [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]])
+    k, n = np.arange(sides), (np.arange(sides) + 1) % sides
+    first = (np.arange(rings - 2) * sides)[:, None]
+    upper = np.stack([first + k, first + sides + k, first + n], axis=2).reshape(-1, 3)
+    lower = np.stack([first + n, first + sides + k, first + sides + n], axis=2).reshape(-1, 3)
+    north, south, last = len(vertices) - 2, len(vertices) - 1, (rings - 2) * sides
+    caps = [np.column_stack([np.full(sides, north), k, n]), np.column_stack([np.full(sides, south), last + n, last + k])]
+    return radius_m * vertices, np.vstack([upper, lower, *caps])
 
 
 def tube(points: NDArray[np.float64], radius_m: float, sides: int = 6) -> Triangles:

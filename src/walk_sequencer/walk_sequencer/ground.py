@@ -65,7 +65,7 @@ def lay_ground(
 
 
 @numba.njit(cache=True, nogil=True)
-def _steps(kept, local, column, places, indptr, neighbours):  # type: ignore[no-untyped-def]
+def _steps(kept, local, column, places, indptr, neighbours):
     step = np.full((len(kept), 9), -1, dtype=np.int32)
     for p in range(len(kept)):
         here = kept[p]
@@ -83,7 +83,7 @@ def _steps(kept, local, column, places, indptr, neighbours):  # type: ignore[no-
 
 
 @numba.njit(cache=True, nogil=True)
-def _squares(step, price):  # type: ignore[no-untyped-def]
+def _squares(step, price):
     square = np.full(len(step), np.inf)
     for p in range(len(step)):
         q, r, s = step[p, _EAST], step[p, _NORTH], step[p, _NORTH_EAST]
@@ -93,7 +93,7 @@ def _squares(step, price):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _price(ground, p, in_row, in_column):  # type: ignore[no-untyped-def]
+def _price(ground, p, in_row, in_column):
     """Price of the square north-east of place p, or of the row or column between p and the next; inf: blocked."""
     if in_row or in_column:
         q = ground.step[p, _EAST if in_row else _NORTH]
@@ -102,7 +102,7 @@ def _price(ground, p, in_row, in_column):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _height(ground, p, x, y, in_row, in_column):  # type: ignore[no-untyped-def]
+def _height(ground, p, x, y, in_row, in_column):
     """Height of the ground at (x, y) [cells] in the square north-east of place p, bilinear between its corners."""
     u = min(max(x - ground.column[p, 0], 0.0), 1.0)
     v = min(max(y - ground.column[p, 1], 0.0), 1.0)
@@ -114,7 +114,7 @@ def _height(ground, p, x, y, in_row, in_column):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _ahead(offset, sign):  # type: ignore[no-untyped-def]
+def _ahead(offset, sign):
     """Which square a line enters first, 0 or -1, from a place's offset: on the border, the one ahead."""
     if abs(offset) <= _ON_LINE:
         return 0 if sign > 0 else -1
@@ -122,7 +122,7 @@ def _ahead(offset, sign):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def walk_line(ground, a, ax, ay, b, bx, by, profile):  # type: ignore[no-untyped-def]
+def walk_line(ground, a, ax, ay, b, bx, by, profile):
     """Returns (cost, length [m], samples) of the straight walk from (ax, ay) at place `a` to (bx, by) at `b`.
 
     The line is followed through the squares between four columns each. A square is walkable if its corners are
@@ -193,7 +193,7 @@ def walk_line(ground, a, ax, ay, b, bx, by, profile):  # type: ignore[no-untyped
 
 
 @numba.njit(cache=True, nogil=True)
-def walk_between(ground, a, b):  # type: ignore[no-untyped-def]
+def walk_between(ground, a, b):
     """Returns the cost of the straight walk between the centres of two places; inf where it leaves the ground."""
     ax, ay, bx, by = ground.xyz[a, 0], ground.xyz[a, 1], ground.xyz[b, 0], ground.xyz[b, 1]
     return walk_line(ground, a, ax, ay, b, bx, by, None)[0]

@@ -54,7 +54,7 @@ def way_home(regions: Regions, place: int) -> list[int]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _step_cost(ground, p, q):  # type: ignore[no-untyped-def]
+def _step_cost(ground, p, q):
     x = ground.xyz[q, 0] - ground.xyz[p, 0]
     y = ground.xyz[q, 1] - ground.xyz[p, 1]
     z = ground.xyz[q, 2] - ground.xyz[p, 2]
@@ -62,7 +62,7 @@ def _step_cost(ground, p, q):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _push(keys, items, size, key, item):  # type: ignore[no-untyped-def]
+def _push(keys, items, size, key, item):
     k = size
     while k > 0 and keys[(k - 1) >> 1] > key:
         keys[k], items[k] = keys[(k - 1) >> 1], items[(k - 1) >> 1]
@@ -71,7 +71,7 @@ def _push(keys, items, size, key, item):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _pop(keys, items, size):  # type: ignore[no-untyped-def]
+def _pop(keys, items, size):
     """Takes the first of `size` entries off the heap; the caller has read it."""
     key, item = keys[size - 1], items[size - 1]
     k, last = 0, size - 1
@@ -87,7 +87,7 @@ def _pop(keys, items, size):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _spread(ground, sources):  # type: ignore[no-untyped-def]
+def _spread(ground, sources):
     n = len(ground.xyz)
     owner = np.full(n, -1, dtype=np.int32)
     toward = np.full(n, -1, dtype=np.int32)
@@ -117,7 +117,7 @@ def _spread(ground, sources):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _borders(ground, owner, cost):  # type: ignore[no-untyped-def]
+def _borders(ground, owner, cost):
     count = 0
     for p in range(len(owner)):
         for k in range(9):

@@ -17,7 +17,7 @@ _PASSES = 2  # a third gains less than 0.1 % of the length
 
 
 @numba.njit(cache=True, nogil=True)
-def _hop(ground, way, a, b):  # type: ignore[no-untyped-def]
+def _hop(ground, way, a, b):
     """Cost of the straight walk from vertex a to vertex b of the way, or of the one step between two places."""
     p, q = int(way[a, 0]), int(way[b, 0])
     cost = walk_line(ground, p, way[a, 1], way[a, 2], q, way[b, 1], way[b, 2], None)[0]
@@ -32,7 +32,7 @@ def _hop(ground, way, a, b):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _skip(ground, way, n):  # type: ignore[no-untyped-def]
+def _skip(ground, way, n):
     """Leaves out vertices between which a straight walk costs no more; returns how many are left."""
     so_far = np.zeros(n)
     for k in range(1, n):
@@ -60,13 +60,13 @@ def _skip(ground, way, n):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _flat(way, k, point):  # type: ignore[no-untyped-def]
+def _flat(way, k, point):
     """Distance in plan from vertex k to a point."""
     return np.sqrt((way[k, 1] - point[0]) ** 2 + (way[k, 2] - point[1]) ** 2)
 
 
 @numba.njit(cache=True, nogil=True)
-def _pull(ground, way, k):  # type: ignore[no-untyped-def]
+def _pull(ground, way, k):
     """Moves vertex k to where the walk over it costs least, by ever smaller steps; returns whether it moved."""
     best = _hop(ground, way, k - 1, k) + _hop(ground, way, k, k + 1)
     if best < _STRAIGHT * _flat(way, k - 1, way[k + 1, 1:]):
@@ -100,7 +100,7 @@ def _pull(ground, way, k):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _tighten(ground, way, passes):  # type: ignore[no-untyped-def]
+def _tighten(ground, way, passes):
     n = _skip(ground, way, len(way))
     for _ in range(passes):
         moved = False
@@ -113,7 +113,7 @@ def _tighten(ground, way, passes):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _follow_floor(ground, way, profile, points, tolerance):  # type: ignore[no-untyped-def]
+def _follow_floor(ground, way, profile, points, tolerance):
     """Writes floor points to `points` such that straight lines between them keep within the tolerance of the floor.
 
     A point is added where no straight line from the last one passes all heights since (a corridor, in one go).

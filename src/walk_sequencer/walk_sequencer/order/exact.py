@@ -34,7 +34,7 @@ def order_exact(
 
 
 @numba.njit(cache=True, nogil=True)
-def _held_karp(costs, start, end):  # type: ignore[no-untyped-def]
+def _held_karp(costs, start, end):
     n = len(costs)
     best = np.full((1 << n, n), np.inf)
     before = np.full((1 << n, n), -1, dtype=np.int8)

@@ -42,7 +42,7 @@ def order_local_search(costs: NDArray[np.float64], start: int, end: int, config:
 
 
 @numba.njit(cache=True, nogil=True)
-def _cost(costs, tour):  # type: ignore[no-untyped-def]
+def _cost(costs, tour):
     total = costs[tour[-1], tour[0]]
     for k in range(len(tour) - 1):
         total += costs[tour[k], tour[k + 1]]
@@ -50,7 +50,7 @@ def _cost(costs, tour):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _nearest_neighbour(costs, first):  # type: ignore[no-untyped-def]
+def _nearest_neighbour(costs, first):
     n = len(costs)
     tour = np.zeros(n, dtype=np.int64)
     left = np.ones(n, dtype=np.bool_)
@@ -65,7 +65,7 @@ def _nearest_neighbour(costs, first):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _reverse(tour, i, j):  # type: ignore[no-untyped-def]
+def _reverse(tour, i, j):
     while i < j:
         tour[i], tour[j] = tour[j], tour[i]
         i += 1
@@ -73,7 +73,7 @@ def _reverse(tour, i, j):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _two_opt(costs, tour):  # type: ignore[no-untyped-def]
+def _two_opt(costs, tour):
     """Makes the first improving reversal of tour[i..j] for each i; returns whether there was one."""
     n, better = len(tour), False
     for i in range(1, n - 1):
@@ -89,7 +89,7 @@ def _two_opt(costs, tour):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _best_gap(costs, tour, i, size):  # type: ignore[no-untyped-def]
+def _best_gap(costs, tour, i, size):
     """Returns (k, turned) for the piece tour[i..i+size) best put behind tour[k], k -1 where it is best off already."""
     n = len(tour)
     a, b, c, d = tour[i - 1], tour[i], tour[i + size - 1], tour[(i + size) % n]
@@ -113,7 +113,7 @@ def _best_gap(costs, tour, i, size):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _or_opt(costs, tour, piece):  # type: ignore[no-untyped-def]
+def _or_opt(costs, tour, piece):
     """Moves pieces tour[i..i+size) to where they cost less, turned or not; returns whether one moved."""
     n, better = len(tour), False
     for size in range(1, _LONGEST_PIECE + 1):
@@ -137,7 +137,7 @@ def _or_opt(costs, tour, piece):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _descend(costs, tour, piece):  # type: ignore[no-untyped-def]
+def _descend(costs, tour, piece):
     better = True
     while better:
         better = _two_opt(costs, tour)
@@ -145,7 +145,7 @@ def _descend(costs, tour, piece):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True, nogil=True)
-def _search(costs, firsts, cuts):  # type: ignore[no-untyped-def]
+def _search(costs, firsts, cuts):
     n = len(costs)
     piece = np.empty(_LONGEST_PIECE, dtype=np.int64)
     best = _nearest_neighbour(costs, firsts[0])
