@@ -64,7 +64,7 @@ def _edges(data: base.PlannerData, index: dict[float, int]) -> NDArray[np.int64]
     return np.unique(edges, axis=0)
 
 
-class _Milestones(base.ValidStateSampler):  # type: ignore[misc]
+class _Milestones(base.ValidStateSampler):
     """Hands out the prepared milestones one after the other."""
 
     def __init__(self, info: base.SpaceInformation, coordinates: NDArray[np.float64]) -> None:
@@ -82,7 +82,7 @@ class _Milestones(base.ValidStateSampler):  # type: ignore[misc]
         return False
 
 
-class _Walks(base.MotionValidator):  # type: ignore[misc]
+class _Walks(base.MotionValidator):
     """A motion is valid if a straight walk over the ground leads from place to place."""
 
     def __init__(
