@@ -117,7 +117,7 @@ def milestone_count(area_m2: float) -> int:
 
 
 def _draw_milestones(ground: Ground, config: SequencerConfig) -> NDArray[np.int64]:
-    """Draws different places, likelier where the walls are near [EfraimidisSpirakis2006]."""
+    """Draws different places, likelier where the walls are near (`efraimidis2006`)."""
     n = len(ground.xyz)
     count = min(n, config.milestones or milestone_count(n * ground.cell_m**2))
     odds = np.where(ground.price > 1.0, _NARROW_ODDS, 1.0)

@@ -109,9 +109,12 @@ def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterat
     """Yields what the user reads at the end of a plan."""
     quality = walkthrough.quality
     entered = sum(visit.entered for visit in walkthrough.visits)
+    reachable = sum(room.reachable for room in walkthrough.building.rooms)
+    beyond = len(walkthrough.building.rooms) - reachable
     minutes, rest = divmod(round(quality.duration_s), 60)
     yield f"walk       {quality.length_m:.1f} m in {minutes} min {rest} s past {len(walkthrough.keypoints)} keypoints"
-    yield f"rooms      {entered} of {len(walkthrough.visits)} entered"
+    others = f"; {beyond} cannot be reached, the report says why" if beyond else ""
+    yield f"rooms      {entered} of {reachable} reachable entered{others}"
     yield f"collisions {quality.colliding_segments} of {quality.segments} segments"
     for warning in walkthrough.warnings:
         yield f"note       {warning}"

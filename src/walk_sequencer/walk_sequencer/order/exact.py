@@ -20,7 +20,7 @@ def order_exact(
     end: int,
     config: SequencerConfig,  # noqa: ARG001  the signature of all orders
 ) -> NDArray[np.int64]:
-    """Returns an order of least cost [HeldKarp1962], in O(2^n n^2).
+    """Returns an order of least cost (`held1962`), in O(2^n n^2).
 
     Raises:
         ParameterError: For more than `MAX_EXACT` indices.

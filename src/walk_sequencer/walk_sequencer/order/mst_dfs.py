@@ -16,7 +16,7 @@ def order_mst_dfs(
     end: int,
     config: SequencerConfig,  # noqa: ARG001  the signature of all orders
 ) -> NDArray[np.int64]:
-    """Returns the tree's vertices depth first [Schmidiger], for comparison.
+    """Returns the tree's vertices depth first (`schmidiger`), for comparison.
 
     Where the costs are a metric the order costs at most twice the optimum. The nearest child goes first. A chosen
     end goes last, after the subtree it is in; a free start is index 0, or 1 where 0 is the end. Costs that are not

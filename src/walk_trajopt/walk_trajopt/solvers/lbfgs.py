@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""L-BFGS by SciPy, the source's solver and the reference for the others (`liu1989`, `schmidiger2021`)."""
+"""L-BFGS by SciPy, the source's solver and the reference for the others (`liu1989`, `schmidiger`)."""
 
 from __future__ import annotations
 

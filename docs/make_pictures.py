@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Draws the pictures of README.md and docs/ from the sample building into docs/images/.
+
+./walk run is not needed; call it with the environment's Python: .venv/bin/python docs/make_pictures.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from walk_bringup.sample import sample_path
+from walk_building.progress import no_progress
+from walk_plan.drawing.maps import draw_maps
+from walk_plan.drawing.profiles import draw_profiles
+from walk_plan.drawing.storey_plan import draw_storey
+from walk_plan.options import PlanConfig
+from walk_plan.pipeline import make_walkthrough
+from walk_plan.stages import StageClock
+
+FOLDER = Path(__file__).resolve().parent / "images"
+
+
+def main() -> None:
+    """Plans the sample building and draws its storeys, maps and profiles."""
+    FOLDER.mkdir(exist_ok=True)
+    walkthrough = make_walkthrough(sample_path(), PlanConfig(), StageClock(no_progress))
+    storeys = list(range(len(walkthrough.building.storeys)))
+    figures = {
+        "ground_floor.png": draw_storey(walkthrough, 0),
+        "upper_floor.png": draw_storey(walkthrough, 1),
+        "maps.png": draw_maps(walkthrough, storeys),
+        "profiles.png": draw_profiles(walkthrough),
+    }
+    for name, figure in figures.items():
+        figure.savefig(FOLDER / name, dpi=110)
+
+
+if __name__ == "__main__":
+    main()
