@@ -36,7 +36,7 @@ ROSDEP = {
 }
 """rosdep keys by module."""
 
-WITHOUT_KEY = {"DracoPy", "embreex", "fcpw", "ifcopenshell", "ompl"}
+WITHOUT_KEY = {"DracoPy", "embreex", "ifcopenshell", "ompl"}
 """Modules that rosdep does not know; docs/ros2.md has the pip line for them."""
 
 
