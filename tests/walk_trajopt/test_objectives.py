@@ -93,6 +93,57 @@ def test_value_does_not_depend_on_the_number_of_points(name: str, sloping: Build
     assert values[1] == pytest.approx(values[0], rel=0.03)
 
 
+@pytest.mark.parametrize("of", ["body", "eye"])
+@pytest.mark.parametrize("name", NAMES)
+def test_the_largest_piece_is_the_residual(name: str, of: str, sloping: Building, make_setting: MakeSetting) -> None:
+    start = line(40, (3, 0.7), (9, 0.7))
+    objective = OBJECTIVES[name](make_setting(sloping, start, clearance_of=of))
+    if not isinstance(objective, PointwiseObjective):
+        return
+    rng = np.random.default_rng(3)
+    # Again and again, nearer and farther: what an objective remembers of earlier calls must not change its answer.
+    for size in (0.0, 0.02, 0.3, 0.3, 0.05, 1.0, 0.3):
+        x = start + rng.normal(0, size, start.shape) if size else start
+        shape = len(x), objective.pieces
+        values, slopes, bends = np.full(shape, np.nan), np.full((*shape, 3), np.nan), np.full(shape, np.nan)
+        objective.write_pieces(x, values, slopes, bends)
+        residual, jacobian = objective.residuals(x)
+        largest = np.where(values.max(axis=1) > -np.inf, values.max(axis=1), 0.0)
+        np.testing.assert_allclose(largest, residual, atol=1e-9)
+        at = np.flatnonzero(residual)
+        np.testing.assert_allclose(slopes[at, values[at].argmax(axis=1)], jacobian[at], atol=1e-6)
+        assert (bends[values > -np.inf] >= 0).all()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pieces_say_how_the_residual_goes_on(name: str, sloping: Building, make_setting: MakeSetting) -> None:
+    start = line(12, (3, 0.7), (9, 0.7))
+    objective = OBJECTIVES[name](make_setting(sloping, start))
+    if not isinstance(objective, PointwiseObjective):
+        return
+    x = wiggled(start, 0.3)
+    shape = len(x), objective.pieces
+    values, slopes, bends = np.zeros(shape), np.zeros((*shape, 3)), np.zeros(shape)
+    objective.write_pieces(x, values, slopes, bends)
+    step = 0.003 * np.random.default_rng(0).normal(size=x.shape)
+    known = np.where(values > -np.inf, values, -1e9)
+    ahead = (known + np.einsum("ijk,ik->ij", np.where(values[..., None] > -np.inf, slopes, 0), step)).max(axis=1)
+    found = objective.residuals(x + step)[0]
+    np.testing.assert_allclose(np.where(ahead > -1e8, ahead, 0), found, atol=5e-4)
+
+
+def test_a_point_between_two_walls_knows_both(rooms: Building, make_setting: MakeSetting) -> None:
+    # In the door of 0.9 m, off its middle: the nearer jamb pushes, the other would push back.
+    x = np.array([[3.9, 1.9, 1.6], [4.0, 1.9, 1.6]])
+    objective = OBJECTIVES["clearance"](make_setting(rooms, x, clearance_m=0.6))
+    assert isinstance(objective, PointwiseObjective)
+    shape = len(x), objective.pieces
+    values, slopes, bends = np.zeros(shape), np.zeros((*shape, 3)), np.zeros(shape)
+    objective.write_pieces(x, values, slopes, bends)
+    across = np.where(values[1] > -np.inf, slopes[1, :, 1], 0)
+    assert across.max() > 0.9 and across.min() < -0.9
+
+
 def test_quadratic_objectives_have_the_hessian_their_bands_say(hall: Building, make_setting: MakeSetting) -> None:
     start = np.column_stack([np.linspace(2, 8, 9), np.full(9, 4.0), np.full(9, 1.6)])
     for kind in OBJECTIVES.values():
@@ -147,6 +198,4 @@ def test_fixed_points_have_no_gradient_and_costs_add_up(hall: Building, make_set
     value, gradient = problem.evaluate(x)
     assert (gradient[fixed] == 0).all() and (gradient[~fixed] != 0).any()
     assert value == pytest.approx(sum(problem.costs(x).values()))
-    here = problem.linearise(x)
-    assert here.value == pytest.approx(value)
-    np.testing.assert_allclose(here.gradient, gradient)
+    assert problem.linearise(x).value == pytest.approx(value)

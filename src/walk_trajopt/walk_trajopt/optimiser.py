@@ -59,7 +59,7 @@ class Optimiser:
             raise ParameterError("polyline", "all points at one place", "a tour of some length")
         stops = as_polyline_points("keypoints", keypoints, at_least=0)
         n = point_count(tour.length_m, self.config)
-        self.state: State = initial_state(tour, stops, keypoint_arcs(tour, stops), n)
+        self.state: State = initial_state(tour, stops, self._radii(stops), keypoint_arcs(tour, stops), n)
         self._spacing_m = tour.length_m / (n - 1)
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
@@ -67,11 +67,14 @@ class Optimiser:
         """Solves the whole problem from the planned tour."""
         start = dataclasses.replace(self.state, x=self.state.start)
         self._solution = self._solve(start, 0, len(start.x) - 1)
-        self.state = dataclasses.replace(start, x=self._solution.x)
+        solved = dataclasses.replace(start, x=self._solution.x)
+        self.state = dataclasses.replace(solved, cost=self._window_cost(solved, 0, len(start.x) - 1))
 
     def check(self) -> OptimisedPath:
         """Sweeps the body along the whole path, repairs it where it does not pass, and returns it."""
-        self.state = self._checked(self.state, 0, len(self.state.x) - 1)
+        last = len(self.state.x) - 1
+        checked = self._checked(self.state, 0, last)
+        self.state = dataclasses.replace(checked, cost=self._window_cost(checked, 0, last))
         return self.path()
 
     def move_keypoint(
@@ -102,7 +105,9 @@ class Optimiser:
         if not np.isfinite(eye).all():
             return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
         legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
-        moved = bent(self.state, keypoint, eye[0], (legs[0], legs[1]), self._spacing_m)
+        before_cost = self._window_cost(self.state, *self.state.window(keypoint))
+        radius = float(self._radii(eye)[0])
+        moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self._spacing_m)
         first, last = moved.window(keypoint)
         solution = self._solve(moved, first, last)
         checked = self._checked(dataclasses.replace(moved, x=solution.x), first, last)
@@ -110,7 +115,10 @@ class Optimiser:
         if stuck:
             reason = f"the body would touch the building {len(stuck)} times beside keypoint {keypoint}"
             return EditOutcome(path=self.path(), accepted=False, reason=reason)
-        self.state, self._solution = checked, solution
+        # Beside the window nothing has changed, so neither has the cost there.
+        after_cost = self._window_cost(checked, first, last)
+        cost = {name: checked.cost[name] + after_cost[name] - before_cost[name] for name in after_cost}
+        self.state, self._solution = dataclasses.replace(checked, cost=cost), solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
     def path(self) -> OptimisedPath:
@@ -118,11 +126,10 @@ class Optimiser:
         state = self.state
         points, tour_m = state.way.points, state.way.tour_m
         arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-        whole = Problem(self._setting(state, 0, len(state.x)), self.config, np.zeros(len(state.x), bool))
         return OptimisedPath(
             points=read_only(points),
             keypoint_index=np.abs(tour_m[None, :] - state.keypoint_m[:, None]).argmin(axis=1).astype(np.int64),
-            cost=whole.costs(state.x),
+            cost=dict(state.cost),
             iterations=self._solution.iterations,
             evaluations=self._solution.evaluations,
             solver=self.config.solver,
@@ -138,7 +145,7 @@ class Optimiser:
     def _solve(self, state: State, first: int, last: int, config: TrajoptConfig | None = None) -> Solution:
         """Optimises the points between `first` and `last`, these two and all beyond them fixed."""
         config = config or self.config
-        low, high = max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
+        low, high = _around(state, first, last)
         fixed = np.ones(high - low, bool)
         fixed[first + 1 - low : last - low] = False
         problem = Problem(self._setting(state, low, high), config, fixed)
@@ -146,6 +153,11 @@ class Optimiser:
         x = state.x.copy()
         x[low:high] = solution.x
         return dataclasses.replace(solution, x=x)
+
+    def _window_cost(self, state: State, first: int, last: int) -> dict[str, float]:
+        """Returns the weighted value of each objective over all terms that the points between the two are part of."""
+        low, high = _around(state, first, last)
+        return Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool)).costs(state.x[low:high])
 
     def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""
@@ -160,7 +172,7 @@ class Optimiser:
             spacing_m=self._spacing_m,
             keypoints=state.keypoints[inside],
             keypoint_index=state.keypoint_index[inside] - low,
-            keypoint_radius_m=self._radii(state.keypoints[inside]),
+            keypoint_radius_m=state.radius_m[inside],
             geometry=self._building.geometry,
             surface=self._building.surface,
             walker=self._building.walker,
@@ -174,13 +186,14 @@ class Optimiser:
         begin, end = max(first - 1, 0), min(last + 1, len(state.x) - 1)
         window = float(state.arc_m[begin]), float(state.arc_m[end])
         state = self._drawn(state, begin, end)
-        eased = []
-        for stretch in colliding(state.way, self._check, window):
+        touching, eased = colliding(state.way, self._check, window), []
+        for stretch in touching:
             state = self._eased(state, stretch, (first, last))
             eased.append(Mended(start_m=stretch[0], end_m=stretch[1], free=True, how=_EASED))
         if eased:
             state = self._drawn(state, begin, end)
-        way, mended = repair(state.way, state.tour, state.keypoint_m, self._check, window)
+            touching = colliding(state.way, self._check, window)
+        way, mended = repair(state.way, state.tour, state.keypoint_m, self._check, touching)
         eased = [e for e in eased if not any(m.start_m < e.end_m and m.end_m > e.start_m for m in mended)]
         kept = [m for m in state.mended if m.end_m < window[0] or m.start_m > window[1]]
         return dataclasses.replace(state, way=way, mended=tuple(sorted(kept + eased + mended, key=lambda m: m.start_m)))
@@ -205,6 +218,11 @@ class Optimiser:
         stiffer = dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
         solution = self._solve(dataclasses.replace(state, x=x), first, last, stiffer)
         return dataclasses.replace(state, x=solution.x)
+
+
+def _around(state: State, first: int, last: int) -> tuple[int, int]:
+    """Returns the range of points that terms of the cost between `first` and `last` refer to."""
+    return max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
 
 
 def _stretch(mended: Mended, state: State, arc_m: NDArray[np.float64]) -> Stretch:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,12 +17,17 @@ from walk_trajopt.objectives.base import banded_product
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class Local:
-    """The problem around one set of points: everything a second-order step needs."""
+    """The problem around one set of points: everything a second-order step needs.
+
+    The cost there is a quadratic function with the constant Hessian, plus for each pointwise objective k
+    scale[k] Σ_i (max_j values[i, j])² with j from first[k] up to first[k + 1].
+    """
 
     value: float
-    gradient: NDArray[np.float64]  # (n, 3), zero at fixed points
-    push: NDArray[np.float64]  # (n, 3) the pointwise objectives' part of the gradient
-    blocks: NDArray[np.float64]  # (n, 3, 3) Gauss–Newton Hessian of the pointwise objectives, zero at fixed points
+    gradient: NDArray[np.float64]  # (n, 3) of the quadratic objectives
+    values: NDArray[np.float64]  # (n, P) of the pointwise objectives' pieces, −inf where there is none
+    slopes: NDArray[np.float64]  # (n, P, 3)
+    bends: NDArray[np.float64]  # (n, P)
 
 
 class Problem:
@@ -33,6 +39,8 @@ class Problem:
         setting: What the objectives refer to.
         fixed: (n,) bool.
         bands: (3, n) lower bands of half the constant Hessian of the quadratic objectives, per coordinate.
+        first: (G + 1,) where each pointwise objective's pieces begin.
+        scale: (G,) each pointwise objective's weight times the spacing.
     """
 
     def __init__(self, setting: Setting, config: TrajoptConfig, fixed: NDArray[np.bool_]) -> None:
@@ -42,6 +50,8 @@ class Problem:
             name: (config.weight(name), kind(setting)) for name, kind in OBJECTIVES.items() if config.weight(name) > 0.0
         }
         self._pointwise = [(w, o) for w, o in self._objectives.values() if isinstance(o, PointwiseObjective)]
+        self.first = np.cumsum([0, *(o.pieces for _, o in self._pointwise)])
+        self.scale = np.array([w * setting.spacing_m for w, _ in self._pointwise])
         self.bands = np.zeros((3, len(setting.start)))
         self._linear = np.zeros_like(setting.start)
         self._constant = 0.0
@@ -64,27 +74,43 @@ class Problem:
         return value, gradient
 
     def linearise(self, x: NDArray[np.float64]) -> Local:
-        """Returns cost, gradient and Gauss–Newton blocks at points `x` (n, 3)."""
+        """Returns the cost at points `x` (n, 3), and what it is made of."""
         value, gradient = self._evaluate_quadratic(x)
-        push, blocks = np.zeros_like(x), np.zeros((len(x), 3, 3))
-        for weight, objective in self._pointwise:
-            scale = weight * self.setting.spacing_m
-            r, jacobian = objective.residuals(x)
-            value += scale * float(r @ r)
-            push += (2.0 * scale * r)[:, None] * jacobian
-            # Where nothing pushes, nothing stiffens either.
-            active = np.where(r != 0.0, 2.0 * scale, 0.0)[:, None, None]
-            blocks += active * jacobian[:, :, None] * jacobian[:, None, :]
-        gradient += push
-        for array in (gradient, push, blocks):
-            array[self.fixed] = 0.0
-        return Local(value=value, gradient=gradient, push=push, blocks=blocks)
+        shape = len(x), int(self.first[-1])
+        values, slopes, bends = np.empty(shape), np.empty((*shape, 3)), np.empty(shape)
+        for (_, objective), a, b in zip(self._pointwise, self.first[:-1], self.first[1:], strict=True):
+            objective.write_pieces(x, values[:, a:b], slopes[:, a:b], bends[:, a:b])
+        value += sum_of_squares(values, self.first, self.scale)
+        return Local(value=value, gradient=gradient, values=values, slopes=slopes, bends=bends)
 
     def costs(self, x: NDArray[np.float64]) -> dict[str, float]:
         """Returns the weighted value of each objective at points `x` (n, 3), by name."""
-        return {name: weight * objective.evaluate(x)[0] for name, (weight, objective) in self._objectives.items()}
+        here, pointwise = self.linearise(x), 0
+        out = {}
+        for name, (weight, objective) in self._objectives.items():
+            if isinstance(objective, PointwiseObjective):
+                first, scale = self.first[pointwise : pointwise + 2], self.scale[pointwise : pointwise + 1]
+                out[name] = float(sum_of_squares(here.values, first, scale))
+                pointwise += 1
+            else:
+                out[name] = weight * objective.evaluate(x)[0]
+        return out
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         product = banded_product(self.bands, x)
         value = float(np.vdot(x, product - 2.0 * self._linear)) + self._constant
         return value, 2.0 * (product - self._linear)
+
+
+@numba.njit(cache=True, nogil=True)
+def sum_of_squares(values, first, scale):
+    """Returns Σ_k scale_k Σ_i (largest of point i's pieces of objective k)²."""
+    total = 0.0
+    for k in range(len(scale)):
+        for i in range(len(values)):
+            largest = -np.inf
+            for j in range(first[k], first[k + 1]):
+                largest = max(largest, values[i, j])
+            if largest > -np.inf:
+                total += scale[k] * largest * largest
+    return total

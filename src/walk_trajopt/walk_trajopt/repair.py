@@ -81,22 +81,26 @@ def colliding(way: Way, check: PathCheck, window_m: tuple[float, float]) -> list
 
 
 def repair(
-    way: Way, tour: Polyline, keep_m: NDArray[np.float64], check: PathCheck, window_m: tuple[float, float]
+    way: Way,
+    tour: Polyline,
+    keep_m: NDArray[np.float64],
+    check: PathCheck,
+    stretches_m: list[tuple[float, float]],
 ) -> tuple[Way, list[Mended]]:
-    """Mends every stretch that does not pass.
+    """Mends stretches that do not pass.
 
     Args:
         way: The optimised path.
         tour: The planned polyline, by whose arc length the way is parametrised.
         keep_m: Arc lengths on the tour that must stay points of the way: those of the keypoints.
         check: What tells where the body passes.
-        window_m: Arc lengths on the tour outside of which the way is known to pass and is left alone.
+        stretches_m: What does not pass, as `colliding` returns it.
 
     Returns:
         The way, and what was done about each stretch, `free` telling with what success.
     """
     done = []
-    for start, end in colliding(way, check, window_m):
+    for start, end in stretches_m:
         way, mended = _mend(way, tour, keep_m, check, (start, end))
         done.append(mended)
     return way, done

@@ -24,6 +24,7 @@ class State:
     Attributes:
         tour: The planned polyline; its parameter is arc length until an edit bends it.
         keypoints: (M, 3) [m].
+        radius_m: (M,) how near to each to pass [m].
         keypoint_m: (M,) parameter of the tour at each keypoint.
         keypoint_index: (M,) the point that is each keypoint's.
         start: (n, 3) the points on the tour, x⁰.
@@ -31,10 +32,12 @@ class State:
         x: (n, 3) the optimised points.
         way: The checked curve through them.
         mended: What the repair did.
+        cost: Weighted value of each objective at `x`, by name.
     """
 
     tour: Polyline
     keypoints: NDArray[np.float64]
+    radius_m: NDArray[np.float64]
     keypoint_m: NDArray[np.float64]
     keypoint_index: NDArray[np.int64]
     start: NDArray[np.float64]
@@ -42,6 +45,7 @@ class State:
     x: NDArray[np.float64]
     way: Way
     mended: tuple[Mended, ...]
+    cost: dict[str, float]
 
     def window(self, keypoint: int) -> tuple[int, int]:
         """Returns the first and the last point of the legs beside a keypoint."""
@@ -50,12 +54,19 @@ class State:
         return first, last
 
 
-def initial_state(tour: Polyline, keypoints: NDArray[np.float64], keypoint_m: NDArray[np.float64], n: int) -> State:
+def initial_state(
+    tour: Polyline,
+    keypoints: NDArray[np.float64],
+    radius_m: NDArray[np.float64],
+    keypoint_m: NDArray[np.float64],
+    n: int,
+) -> State:
     """Returns the state whose points are on the tour itself."""
     samples = resample(tour, keypoint_m, n)
     return State(
         tour=tour,
         keypoints=keypoints,
+        radius_m=radius_m,
         keypoint_m=keypoint_m,
         keypoint_index=samples.keypoint_index,
         start=samples.points,
@@ -63,6 +74,7 @@ def initial_state(tour: Polyline, keypoints: NDArray[np.float64], keypoint_m: ND
         x=samples.points,
         way=Way(points=samples.points, tour_m=samples.arc_m),
         mended=(),
+        cost={},
     )
 
 
@@ -70,6 +82,7 @@ def bent(
     state: State,
     keypoint: int,
     position: NDArray[np.float64],
+    radius_m: float,
     legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
     spacing_m: float,
 ) -> State:
@@ -93,8 +106,8 @@ def bent(
     added = len(arc) - (last + 1 - first)
     index = state.keypoint_index + np.where(np.arange(len(state.keypoints)) > keypoint, added, 0)
     index[keypoint] = first + int(np.abs(arc - here).argmin())
-    keypoints = state.keypoints.copy()
-    keypoints[keypoint] = position
+    keypoints, radii = state.keypoints.copy(), state.radius_m.copy()
+    keypoints[keypoint], radii[keypoint] = position, radius_m
 
     def spliced(old: NDArray[np.float64], new: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.concatenate([old[:first], new, old[last + 1 :]])
@@ -103,6 +116,7 @@ def bent(
         state,
         tour=tour,
         keypoints=keypoints,
+        radius_m=radii,
         keypoint_index=index,
         start=spliced(state.start, tour.at(arc)),
         arc_m=spliced(state.arc_m, arc),

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What an objective is: a value, its gradient, and its curvature in one of two shapes.
 
+An objective is defined in NumPy, by `evaluate` or `residuals`. That alone makes it work in every solver. A pointwise
+one may add `write_pieces`, the same in compiled code and with more to tell: `docs/trajectory.md` describes it.
+
 Sums over points approximate integrals along the path: a sum is multiplied by the spacing `h`, a first difference
 divided by `h`, a second one by `h²`. So the objectives, and the balance of their weights, do not depend on the
 number of points.
@@ -12,12 +15,15 @@ from __future__ import annotations
 import abc
 import dataclasses
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.geometry import Geometry
 from walk_building.surface import WalkableSurface
 from walk_building.walker import Walker
+
+Points = NDArray[np.float64]
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +67,13 @@ class QuadraticObjective(Objective):
 
 
 class PointwiseObjective(Objective):
-    """h Σ r_i², a residual per point that depends on this point alone."""
+    """h Σ r_i², a residual per point that depends on this point alone.
+
+    Attributes:
+        pieces: P, how many functions the residual is the largest of; 1 for a residual that is smooth.
+    """
+
+    pieces: int = 1
 
     @abc.abstractmethod
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -70,6 +82,21 @@ class PointwiseObjective(Objective):
         The Gauss–Newton approximation of the Hessian is 2 h Jᵢ Jᵢᵀ per point.
         """
 
+    def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
+        """Writes, for points `x` (n, 3), smooth functions of which the residual is the largest.
+
+        Where the largest changes the residual has a kink, and a solver that knows both sides of it does not have to
+        find the other one by running into it. So a piece that could become the largest nearby is worth writing too.
+
+        Args:
+            x: (n, 3) [m].
+            values: (n, P) out: each piece's value, −inf where there is none. The largest is the residual.
+            slopes: (n, P, 3) out: its gradient, a vector of the same length everywhere.
+            bends: (n, P) out: its second derivative across the gradient, where it is known to be above zero; else 0.
+        """
+        values[:, 0], slopes[:, 0] = self.residuals(x)
+        bends[:, 0] = 0.0
+
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the value h Σ r² and the gradient 2 h r J."""
         r, jacobian = self.residuals(x)
@@ -77,14 +104,20 @@ class PointwiseObjective(Objective):
         return h * float(r @ r), 2.0 * h * r[:, None] * jacobian
 
 
-def banded_product(bands: NDArray[np.float64], x: NDArray[np.float64]) -> NDArray[np.float64]:
+@numba.njit(cache=True, nogil=True)
+def banded_product(bands: Points, x: Points) -> Points:
     """Returns A x (n, k) for the symmetric pentadiagonal A with lower `bands` (3, n)."""
-    out = bands[0][:, None] * x
-    for k in (1, 2):
-        if len(x) > k:
-            band = bands[k, : len(x) - k][:, None]
-            out[k:] += band * x[:-k]
-            out[:-k] += band * x[k:]
+    n, width = x.shape
+    out = np.empty((n, width))
+    for i in range(n):
+        for c in range(width):
+            total = bands[0, i] * x[i, c]
+            for k in (1, 2):
+                if i + k < n:
+                    total += bands[k, i] * x[i + k, c]
+                if i >= k:
+                    total += bands[k, i - k] * x[i - k, c]
+            out[i, c] = total
     return out
 
 

@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.objectives.base import PointwiseObjective, Setting
+from walk_trajopt.objectives.base import Points, PointwiseObjective, Setting
+from walk_trajopt.objectives.clearance_kernels import write_clearance
 
 _AXIS_STEP_M = 0.35  # between looked-at points of the body's axis: less than the height of a railing's bar or a table
 
@@ -32,6 +33,8 @@ class Clearance(PointwiseObjective):
         self._below_eye = above - walker.eye_height_m  # (K,)
         floor = above * np.cos(np.radians(walker.max_slope_deg))
         self._wish = np.full(len(above), wish) if setting.clearance_of == "eye" else np.minimum(wish, floor)
+        self.pieces = 2 * len(above) + 1
+        self._far = np.full((len(setting.start), 4), -np.inf)
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Returns the shortfalls max(D − d, 0) (n,) and their gradients (n, 3), unit vectors towards the geometry."""
@@ -49,3 +52,8 @@ class Clearance(PointwiseObjective):
         towards = found.points.reshape(heights, -1, 3)[worst][near] - query[worst][near]
         jacobian[near] = towards / distance[near, None]
         return residual, jacobian
+
+    def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
+        """Writes 0 and the shortfalls towards the nearest and the next wall, seen from each height."""
+        write_clearance(self.setting.geometry.bvh, x, self._below_eye, self._wish, self._far, values, slopes)
+        bends[:] = 0.0

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.objectives.base import PointwiseObjective
+from walk_building.surface_kernels import floor_planes
+from walk_trajopt.objectives.base import Points, PointwiseObjective
 
 
 class Height(PointwiseObjective):
@@ -26,3 +28,22 @@ class Height(PointwiseObjective):
         jacobian = np.column_stack([-plane[:, 1], -plane[:, 2], np.ones(len(x))])
         jacobian[~known] = (0.0, 0.0, 1.0)
         return residual, jacobian
+
+    def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
+        """Writes the one piece there is."""
+        surface = self.setting.surface
+        eye, start = self.setting.walker.eye_height_m, self.setting.start
+        _write(surface.grid, x, eye, 2 * surface.step_m, start, values[:, 0], slopes[:, 0])
+        bends[:, 0] = 0.0
+
+
+@numba.njit(cache=True, nogil=True)
+def _write(grid, x, eye, reach, start, values, slopes):
+    plane = np.empty((len(x), 3))
+    floor_planes(grid, x, eye, reach, plane)
+    for i in range(len(x)):
+        known = np.isfinite(plane[i, 0])
+        values[i] = x[i, 2] - (plane[i, 0] + eye if known else start[i, 2])
+        slopes[i, 0] = -plane[i, 1] if known else 0.0
+        slopes[i, 1] = -plane[i, 2] if known else 0.0
+        slopes[i, 2] = 1.0

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.objectives.base import PointwiseObjective
+from walk_trajopt.objectives.base import Points, PointwiseObjective
 
 
 class Keypoints(PointwiseObjective):
@@ -30,3 +31,25 @@ class Keypoints(PointwiseObjective):
                 residual[i], jacobian[i] = excess[k], offset[k] / distance[k]
         scale = 1.0 / np.sqrt(setting.spacing_m)
         return scale * residual, scale * jacobian
+
+    def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
+        """Writes the one piece there is."""
+        setting = self.setting
+        radius, scale = setting.keypoint_radius_m, 1.0 / np.sqrt(setting.spacing_m)
+        _write(x, setting.keypoint_index, setting.keypoints, radius, scale, values[:, 0], slopes[:, 0], bends[:, 0])
+
+
+@numba.njit(cache=True, nogil=True)
+def _write(x, index, keypoints, radius, scale, values, slopes, bends):
+    values[:] = 0.0
+    slopes[:] = 0.0
+    bends[:] = 0.0
+    for k in range(len(index)):
+        i = index[k]
+        away = x[i] - keypoints[k]
+        distance = np.sqrt(away[0] ** 2 + away[1] ** 2 + away[2] ** 2)
+        excess = scale * (distance - radius[k])
+        if excess > values[i]:
+            values[i] = excess
+            slopes[i] = scale / distance * away
+            bends[i] = scale / distance
