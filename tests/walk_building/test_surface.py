@@ -134,10 +134,6 @@ def test_rooms_are_parted_at_the_door_and_named() -> None:
     assert all(r.reachable for r in rooms)
 
 
-def test_a_wide_opening_parts_nothing() -> None:
-    assert len(building_of(two_rooms(3.0)).rooms) == 1
-
-
 def test_a_room_without_a_way_into_it_is_reported_with_the_reason() -> None:
     building = building_of([*two_rooms(0.0)])
     closed = [r for r in building.rooms if not r.reachable]
@@ -170,7 +166,7 @@ def test_a_tall_walker_fits_under_less() -> None:
     meshes = [*shell(6, 4), low_beam]
     small = prepare_building(model_of(meshes), LoadOptions(), Walker(height_m=1.5, eye_height_m=1.4))
     tall = prepare_building(model_of(meshes), LoadOptions(), Walker())
-    assert small.rooms[0].area_m2 > 18 > tall.rooms[0].area_m2
+    assert small.reachable.sum() > 1.5 * tall.reachable.sum(), "the beam stops the tall one"
     assert small.hash != tall.hash
 
 

@@ -3,6 +3,7 @@
 """Building files as something to plan in: triangles, rooms, storeys, walkable surface, exact queries."""
 
 from walk_building.building import Building, Room
+from walk_building.closed_doors import ClosedDoor
 from walk_building.config import Config, param
 from walk_building.errors import BuildingError, ParameterError, WalkError
 from walk_building.geometry import Closest, Geometry, RayHits
@@ -17,6 +18,7 @@ __all__ = [
     "BodySweep",
     "Building",
     "BuildingError",
+    "ClosedDoor",
     "Closest",
     "Config",
     "Door",

@@ -9,6 +9,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from walk_building.closed_doors import ClosedDoor
 from walk_building.geometry import Geometry, as_points
 from walk_building.model import Model, Storey
 from walk_building.surface import WalkableSurface
@@ -42,6 +43,7 @@ class Building:
     reachable: NDArray[np.bool_]  # (P,) the places of the surface that the tour may use
     hash: str  # of the file, the load options and the walker, hex
     warnings: tuple[str, ...]  # sentences for the user
+    closed_doors: tuple[ClosedDoor, ...] = ()  # leaves that look like closed doors, where the file names no door
 
     def to_file(self, points: ArrayLike) -> NDArray[np.float64]:
         """Returns points (N, 3) in the file's own coordinates, in metres and z up."""

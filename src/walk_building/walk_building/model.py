@@ -22,6 +22,12 @@ class LoadOptions(Config):
     )
     up: str = param("auto", "the axis that points up in the file", choices=("auto", "y", "z"))
     ignore: str = param("", "regular expression; parts whose name or class it finds are left out")
+    doors: str = param(
+        r"(?i)^(?!.*(frame|way|mat|bell|stop|lintel|handle|knob|rahmen|zarge|griff))"
+        r".*((?<!in)(?<!out)door|t(ü|ue)re?(?![a-z])|(?<![a-z])porte|puerta|(?<!gran)deur)",
+        "regular expression; in a file without doors by class, parts of a door's size whose name it finds are doors "
+        "and stand open; empty for none",
+    )
     furniture: bool = param(True, "keep furniture as obstacles")
     outdoors: bool = param(False, "let the walker out of the building and onto its roofs")
 
@@ -54,7 +60,7 @@ class Space:
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class Door:
-    """A door as the file declares it; it stands open, so its leaf is no obstacle."""
+    """A door by its class or, in files without classes, by its name; it stands open, so its leaf is no obstacle."""
 
     name: str
     storey: str

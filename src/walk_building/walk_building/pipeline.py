@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Building
+from walk_building.closed_doors import closed_door_warnings, find_closed_doors
 from walk_building.errors import BuildingError
 from walk_building.geometry import Geometry
 from walk_building.indoors import (
@@ -88,10 +89,11 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
     clearance = surface_distance(indptr, neighbours, places, edge) + columns.cell_m / 2
     reachable = (component == start) & allowed
     rooms, room = find_rooms(
-        model=model, walker=walker, storeys=storeys, places=places, indptr=indptr, neighbours=neighbours,
-        clearance_m=clearance, space=space, indoor=inside, component=component, reachable=reachable,
-        place_area_m2=columns.cell_m**2,
+        model=model, geometry=geometry, columns=columns, hits=hits, storeys=storeys, places=places, column=column,
+        indptr=indptr, neighbours=neighbours, clearance_m=clearance, space=space, indoor=inside, component=component,
+        reachable=reachable, step_m=walker.step_m,
     )  # fmt: skip
+    closed = () if model.doors else find_closed_doors(geometry, places, edge & inside, walker.radius_m)
     surface = WalkableSurface(
         columns=columns,
         step_m=walker.step_m,
@@ -117,7 +119,8 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         start_component=start,
         reachable=reachable,
         hash=_hash(model, options, walker),
-        warnings=model.warnings,
+        warnings=model.warnings + closed_door_warnings(closed, model.offset_m),
+        closed_doors=closed,
     )
 
 

@@ -10,12 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Room
+from walk_building.floor_plan import floor_plan
+from walk_building.geometry import Geometry
 from walk_building.model import Model, Storey
-from walk_building.segmentation import segment_rooms
+from walk_building.raster import Columns, Hits
+from walk_building.segmentation import drop_small, segment_plan, spread
 from walk_building.storeys import storey_of
-from walk_building.walker import Walker
 
 _OUTDOORS = "it is outdoors: there is nothing above it"
+# What a walker can stand on in the smallest closet; less is a doorstep.
+_MIN_ROOM_M2 = 0.4
 # A found part that nobody reaches and that is smaller than this is the top of a cupboard, not worth a line.
 _MIN_UNREACHED_ROOM_M2 = 10.0
 
@@ -35,9 +39,12 @@ class _Floor:
 def find_rooms(
     *,
     model: Model,
-    walker: Walker,
+    geometry: Geometry,
+    columns: Columns,
+    hits: Hits,
     storeys: tuple[Storey, ...],
     places: NDArray[np.float64],
+    column: NDArray[np.int64],
     indptr: NDArray[np.int64],
     neighbours: NDArray[np.int32],
     clearance_m: NDArray[np.float64],
@@ -45,7 +52,7 @@ def find_rooms(
     indoor: NDArray[np.bool_],
     component: NDArray[np.int32],
     reachable: NDArray[np.bool_],
-    place_area_m2: float,
+    step_m: float,
 ) -> tuple[tuple[Room, ...], NDArray[np.int32]]:
     """Returns the rooms, declared ones first, and the room of each place (P,), -1 for none.
 
@@ -53,7 +60,7 @@ def find_rooms(
     """
     floor = _Floor(
         places=places, clearance_m=clearance_m, component=component, reachable=reachable,
-        place_area_m2=place_area_m2, storeys=storeys,
+        place_area_m2=columns.cell_m**2, storeys=storeys,
     )  # fmt: skip
     room = np.full(len(places), -1, np.int32)
     rooms: list[Room] = []
@@ -70,22 +77,34 @@ def find_rooms(
         rooms.append(dataclasses.replace(found, reason=_OUTDOORS) if under_the_sky else found)
 
     left = indoor & (space < 0) & _without_spaces(model, storeys, places[:, 2])
-    label = segment_rooms(
-        indptr,
-        neighbours,
-        clearance_m,
-        left & reachable,
-        level=storey_of(storeys, places[:, 2]),
-        radius_m=walker.radius_m,
-        place_area_m2=place_area_m2,
-    )
-    # What nobody reaches is not looked into: each of its parts is one entry.
-    unreached = left & ~reachable
-    label[unreached] = label.max() + 1 + np.unique(component[unreached], return_inverse=True)[1]
-    for found in _found_rooms(label, floor):
+    large = _large(component, left, columns)
+    divided = left & (reachable | ((not model.spaces) & large))
+    level = storey_of(storeys, places[:, 2])
+    label = np.full(len(places), -1, np.int32)
+    for storey in np.unique(level[divided]):
+        here = level == storey
+        plan = floor_plan(geometry, columns, hits, column, places, divided & here, here & ~indoor, step_m)
+        piece = segment_plan(plan, columns.cell_m)
+        at = (plan.place >= 0) & (piece >= 0)
+        label[plan.place[at]] = piece[at] + label.max() + 1
+    spread(indptr, neighbours, divided, level, label)
+    drop_small(label, int(np.ceil(_MIN_ROOM_M2 / columns.cell_m**2)))
+    spread(indptr, neighbours, divided, level, label)
+    # Parts too small for a room: one with the storey beside them, or by themselves.
+    spread(indptr, neighbours, divided, np.zeros_like(level), label)
+    # What nobody reaches, if it is small or beside declared spaces, is not looked into: each part is one entry.
+    rest = left & (label < 0)
+    label[rest] = label.max() + 1 + np.unique(component[rest], return_inverse=True)[1]
+    for found in _found_rooms(label, large, floor):
         room[found.places] = len(rooms)
         rooms.append(found)
     return tuple(rooms), room
+
+
+def _large(component: NDArray[np.int32], left: NDArray[np.bool_], columns: Columns) -> NDArray[np.bool_]:
+    """Whether each place (P,) is of a part that is worth a line of its own where nobody reaches it."""
+    area = np.bincount(component, weights=left) * columns.cell_m**2
+    return np.asarray(area[component] >= _MIN_UNREACHED_ROOM_M2)
 
 
 def _without_spaces(model: Model, storeys: tuple[Storey, ...], z: NDArray[np.float64]) -> NDArray[np.bool_]:
@@ -97,7 +116,7 @@ def _without_spaces(model: Model, storeys: tuple[Storey, ...], z: NDArray[np.flo
     return np.asarray(bare[storey_of(storeys, z)])
 
 
-def _found_rooms(label: NDArray[np.int32], floor: _Floor) -> list[Room]:
+def _found_rooms(label: NDArray[np.int32], large: NDArray[np.bool_], floor: _Floor) -> list[Room]:
     """The segmented pieces as rooms, named by storey and size."""
     inside = np.flatnonzero(label >= 0)
     if len(inside) == 0:
@@ -106,8 +125,7 @@ def _found_rooms(label: NDArray[np.int32], floor: _Floor) -> list[Room]:
     pieces = np.split(inside, np.flatnonzero(np.diff(label[inside])) + 1)
     found = []
     for members in sorted(pieces, key=len, reverse=True):
-        area = len(members) * floor.place_area_m2
-        if not floor.reachable[members].any() and area < _MIN_UNREACHED_ROOM_M2:
+        if not (floor.reachable[members].any() or large[members].any()):
             continue
         height = np.array([np.median(floor.places[members, 2])])
         storey = int(storey_of(floor.storeys, height)[0])

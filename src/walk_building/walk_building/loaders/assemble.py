@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.errors import BuildingError
+from walk_building.loaders.named_doors import doors_by_name
 from walk_building.loaders.plausible import check_extent, suspect_axes, suspect_precision
 from walk_building.loaders.raw import PartFilter, RawMesh, RawModel
 from walk_building.model import Door, LoadOptions, Model, Part, Space, Storey
@@ -38,6 +39,7 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
     units_m = options.units_m or raw.units_m or 1.0
     up = raw.up or "z" if options.up == "auto" else options.up
     turn = units_m * _TO_Z_UP[up].T  # rows are points: p_model = p_file @ turn
+    raw = doors_by_name(raw, options.doors, turn)
     warnings = list(raw.warnings) + _assumptions(raw, options, part_filter)
 
     solid = [_solid(mesh, turn, path) for mesh in raw.parts]
