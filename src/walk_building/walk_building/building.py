@@ -41,6 +41,7 @@ class Building:
     rooms: tuple[Room, ...]
     start_component: int  # the part of the surface that the tour is in
     reachable: NDArray[np.bool_]  # (P,) the places of the surface that the tour may use
+    entrance: int  # the reachable place where one comes in from outdoors, -1 where there is none
     hash: str  # of the file, the load options and the walker, hex
     warnings: tuple[str, ...]  # sentences for the user
     closed_doors: tuple[ClosedDoor, ...] = ()  # leaves that look like closed doors, where the file names no door

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from walk_building.building import Building
 from walk_building.closed_doors import closed_door_warnings, find_closed_doors
+from walk_building.entrance import find_entrance
 from walk_building.errors import BuildingError
 from walk_building.geometry import Geometry
 from walk_building.indoors import (
@@ -30,6 +31,7 @@ from walk_building.progress import Progress, no_progress
 from walk_building.raster import Columns, Hits, cast_columns
 from walk_building.regions import components, start_component
 from walk_building.rooms import find_rooms
+from walk_building.solids import inside_solids
 from walk_building.standing import neighbour_graph, standing_places
 from walk_building.storeys import find_storeys, storey_of
 from walk_building.surface import WalkableSurface, grid_of
@@ -76,7 +78,7 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
 
     column = np.repeat(np.arange(columns.count), np.diff(column_start))
     space = declared_space(columns, model.spaces, column, places[:, 2])
-    is_covered = covered(hits, column, places[:, 2], walker.height_m)
+    is_covered = _covered(model, walker, hits, column, places[:, 2])
     inside = _indoor(model, walker, columns, hits, column, places, space, is_covered)
     if model.spaces:
         inside = close_gaps(indptr, neighbours, places, inside, DOORWAY_DEPTH_M)
@@ -118,10 +120,21 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         rooms=rooms,
         start_component=start,
         reachable=reachable,
+        entrance=find_entrance(places, indptr, neighbours, component, reachable, place_area_m2=columns.cell_m**2),
         hash=_hash(model, options, walker),
         warnings=model.warnings + closed_door_warnings(closed, model.offset_m),
         closed_doors=closed,
     )
+
+
+def _covered(
+    model: Model, walker: Walker, hits: Hits, column: NDArray[np.int64], z: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Which places are under something, other than under the skin of the solid they are in."""
+    under = covered(hits, column, z, walker.height_m)
+    in_the_open = under & ~inside_solids(model.vertices, model.faces, hits, column, z)
+    # A building drawn as one closed sheet is its own solid: then its inside is what is meant.
+    return in_the_open if in_the_open.any() else under
 
 
 def _indoor(

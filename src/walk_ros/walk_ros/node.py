@@ -169,12 +169,13 @@ class WalkNode(Node):
 
     def _load(self) -> None:
         path = str(self.get_parameter("building").value)
+        name = path or "the sample building"
         wanted = (path, self.parameters.get("load", LoadOptions), self.parameters.get("walker", Walker))
         if wanted == self._loaded_for:
             return
         self.building = None
         self.forget()
-        self.diagnostics.state("loading", f"loading {path}")
+        self.diagnostics.state("loading", f"loading {name}")
         self.diagnostics.building(path, "")
         began = time.perf_counter()
         try:
@@ -188,7 +189,7 @@ class WalkNode(Node):
         self._loaded_for = wanted
         self.diagnostics.building(path, self.building.hash)
         self.diagnostics.state("ready")
-        self.get_logger().info(f"loaded {path} in {time.perf_counter() - began:.1f} s")
+        self.get_logger().info(f"loaded {name} in {time.perf_counter() - began:.1f} s")
 
 
 def _sample() -> Path:
