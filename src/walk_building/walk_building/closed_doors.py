@@ -55,7 +55,7 @@ class _Barriers:
 
 
 def find_closed_doors(
-    geometry: Geometry, places: NDArray[np.float64], edge: NDArray[np.bool_], radius_m: float
+    geometry: Geometry, places: NDArray[np.float64], indoor: NDArray[np.bool_], radius_m: float
 ) -> tuple[ClosedDoor, ...]:
     """Returns where the walkable surface ends at a thin leaf in a door-sized gap and goes on behind it.
 
@@ -65,11 +65,11 @@ def find_closed_doors(
 
     Args:
         geometry: What stands on the floor.
-        places: (P, 3) where a walker can stand.
-        edge: (P,) the places at which to look.
+        places: (P, 3) where standing ends: the edge of the walkable surface.
+        indoor: (P,) the places from which to look.
         radius_m: The body's radius.
     """
-    thin = _thin_barriers(geometry, places, np.flatnonzero(edge), radius_m)
+    thin = _thin_barriers(geometry, places, indoor, radius_m)
     found: list[ClosedDoor] = []
     for k in range(len(thin.foot)):
         if any(np.linalg.norm(door.position - thin.foot[k]) < _SAME_M for door in found):
@@ -93,10 +93,10 @@ def closed_door_warnings(doors: tuple[ClosedDoor, ...], offset_m: NDArray[np.flo
 
 
 def _thin_barriers(
-    geometry: Geometry, places: NDArray[np.float64], edge: NDArray[np.int64], radius_m: float
+    geometry: Geometry, places: NDArray[np.float64], indoor: NDArray[np.bool_], radius_m: float
 ) -> _Barriers:
-    """The barriers in front of the places of `edge` that are as thin as a leaf, one in a square of 0.1 m."""
-    eye = places[edge] + np.array([0.0, 0.0, _EYE_M])
+    """The barriers in front of the places indoors that are as thin as a leaf, one in a square of 0.1 m."""
+    eye = places[indoor] + np.array([0.0, 0.0, _EYE_M])
     # A place is at most a column's diagonal farther off than the body needs.
     nearest = geometry.closest(eye, radius_m + 0.15)
     across = nearest.points - eye

@@ -95,7 +95,7 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         indptr=indptr, neighbours=neighbours, clearance_m=clearance, space=space, indoor=inside, component=component,
         reachable=reachable, step_m=walker.step_m,
     )  # fmt: skip
-    closed = () if model.doors else find_closed_doors(geometry, places, edge & inside, walker.radius_m)
+    closed = () if model.doors else find_closed_doors(geometry, places[edge], inside[edge], walker.radius_m)
     surface = WalkableSurface(
         columns=columns,
         step_m=walker.step_m,
