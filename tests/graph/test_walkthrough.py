@@ -153,7 +153,8 @@ def test_an_impossible_edit_is_refused_with_the_reason_and_nothing_changes(
         (lambda m: setattr(m.header, "frame_id", "odom"), "odom"),
         (lambda m: setattr(m.pose.position, "x", float("nan")), "not finite"),
         (lambda m: setattr(m.pose.orientation, "w", 0.0), "norm 0"),
-        (lambda m: setattr(m, "event_type", m.MENU_SELECT), "event type 2"),
+        (lambda m: setattr(m, "event_type", m.BUTTON_CLICK), "event type 3"),
+        (lambda m: setattr(m, "event_type", m.MENU_SELECT), "menu entry 0"),
         (lambda m: setattr(m, "marker_name", "door"), "'door' is no keypoint"),
     ],
 )

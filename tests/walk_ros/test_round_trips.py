@@ -173,7 +173,7 @@ def test_legs_arrive_with_their_pair_and_length(rng):
     assert got.no_way == ((10, 11, "no stairs: not joined"),)
 
 
-@pytest.mark.parametrize("kind", list(c.EditKind))
+@pytest.mark.parametrize("kind", [kind for kind in c.EditKind if kind is not c.EditKind.CHANGE])
 def test_edit_arrives_as_sent(kind, quats):
     edit = c.KeypointEdit(
         kind=kind, keypoint=3, client_id="anna", stamp_ns=STAMP, position=np.arange(3.0), quat_xyzw=quats(1)[0]
@@ -184,11 +184,58 @@ def test_edit_arrives_as_sent(kind, quats):
     np.testing.assert_array_equal(got.quat_xyzw, edit.quat_xyzw)
 
 
+@pytest.mark.parametrize("change", list(c.Change))
+def test_change_arrives_as_sent(change, quats):
+    arguments = {c.Change.REORDER: "first", c.Change.DWELL: "2.5", c.Change.INSERT: "half-way"}
+    target = np.array([1.0, 2.0, 3.0]) if change is c.Change.LOOK_AT else None
+    edit = c.KeypointEdit(
+        kind=c.EditKind.CHANGE,
+        keypoint=-1 if change in (c.Change.INSERT, c.Change.UNDO, c.Change.REDO) else 3,
+        client_id="anna",
+        stamp_ns=STAMP,
+        position=np.arange(3.0),
+        quat_xyzw=quats(1)[0],
+        change=change,
+        argument=arguments.get(change, ""),
+        target=target,
+    )
+    got = c.edit_from_msg(over_the_wire(c.edit_to_msg(edit)))
+    assert (got.kind, got.change, got.argument) == (c.EditKind.CHANGE, change, edit.argument)
+    assert (got.keypoint, got.client_id, got.stamp_ns) == (edit.keypoint, "anna", STAMP)
+    assert (got.target is None) == (target is None)
+    if target is not None:
+        np.testing.assert_array_equal(got.target, target)
+    if change is c.Change.INSERT:
+        np.testing.assert_array_equal(got.position, edit.position)
+
+
+def test_marks_of_keypoints_arrive_as_sent(quats):
+    marks = c.KeypointMarks(
+        look_at={4: np.array([1 / 3, 2.0, 3.0])}, dwell_s={4: 2.5, 7: 0.0}, locked=frozenset({7}), start=7, end=4
+    )
+    eyes = {4: np.zeros(3), 7: np.ones(3)}
+    msg = c.keypoint_markers_to_msg(np.zeros((2, 3)), quats(2), [4, 7], ["", "hall"], STAMP)
+    msg.markers += c.keypoint_marks_to_msgs(marks, eyes, STAMP, shown={("locked", 4), ("dwell", 7)})
+    wired = over_the_wire(msg)
+    got = c.keypoint_marks_from_msg(wired)
+    np.testing.assert_array_equal(got.look_at.pop(4), marks.look_at[4])
+    assert (got.look_at, got.dwell_s, got.locked, got.start, got.end) == ({}, marks.dwell_s, frozenset({7}), 7, 4)
+    # They do not get in the way of the keypoints themselves, and what is gone is taken away.
+    assert c.keypoint_markers_from_msg(wired).ids == (4, 7)
+    assert [(m.ns, m.id) for m in wired.markers if m.action == m.DELETE] == [("locked", 4)]
+
+
 @pytest.mark.parametrize("outcome", list(c.Outcome))
 def test_edit_result_arrives_as_sent(outcome):
     reason = "inside a wall" if outcome is c.Outcome.REFUSED else ""
     result = c.EditResult(
-        outcome=outcome, keypoint="3", client_id="anna", reason=reason, revision_ns=STAMP, edit_stamp_ns=5
+        outcome=outcome,
+        keypoint="3",
+        client_id="anna",
+        reason=reason,
+        revision_ns=STAMP,
+        edit_stamp_ns=5,
+        better_order_saves_m=1.25,
     )
     assert c.edit_result_from_msg(over_the_wire(c.edit_result_to_msg(result))) == result
 

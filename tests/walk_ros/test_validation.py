@@ -190,10 +190,20 @@ def test_edits_are_sound_or_refused(name, kind, x, w, frame):
     assert np.isfinite(got.position).all()
 
 
-@pytest.mark.parametrize("kind", [InteractiveMarkerFeedback.MENU_SELECT, InteractiveMarkerFeedback.BUTTON_CLICK])
-def test_events_that_are_no_edit_are_refused(kind):
-    msg = InteractiveMarkerFeedback(header=Header(frame_id="map"), marker_name="1", event_type=kind, pose=pose())
-    with pytest.raises(MessageError, match=f"event type {kind} is no edit"):
+@pytest.mark.parametrize(
+    ("kind", "entry", "name", "reason"),
+    [
+        (InteractiveMarkerFeedback.BUTTON_CLICK, 0, "1", "event type 3 is no edit"),
+        (InteractiveMarkerFeedback.MENU_SELECT, 0, "1", "menu entry 0 is no edit"),
+        (InteractiveMarkerFeedback.MENU_SELECT, 99, "1", "menu entry 99 is no edit"),
+        (InteractiveMarkerFeedback.MENU_SELECT, 2, "", "'' is no keypoint"),
+    ],
+)
+def test_events_that_are_no_edit_are_refused(kind, entry, name, reason):
+    msg = InteractiveMarkerFeedback(
+        header=Header(frame_id="map"), marker_name=name, event_type=kind, menu_entry_id=entry, pose=pose()
+    )
+    with pytest.raises(MessageError, match=reason):
         c.edit_from_msg(msg)
 
 

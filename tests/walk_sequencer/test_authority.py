@@ -11,6 +11,7 @@ from walk_sequencer.authority import Authority
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal
+from walk_sequencer.wishes import Wish
 
 CONFIG, EDITING = SequencerConfig(), EditingConfig()
 EYES = np.array([[6.0, 2.0, 1.6], [2.0, 2.0, 1.6], [10.0, 2.0, 1.6]])
@@ -28,7 +29,8 @@ def start(building, tmp_path):
 
 
 def move(authority, identity, position):
-    return authority.move(identity, np.array(position), AHEAD[0], "anna", CONFIG, EDITING)
+    wish = Wish(kind="move", keypoint=identity, position=np.array(position), client_id="anna")
+    return authority.edit(wish, CONFIG, EDITING).reason
 
 
 def planned(authority):

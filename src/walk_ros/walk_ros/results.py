@@ -114,8 +114,21 @@ def tour_messages(
             ("pairwise_paths", cleared(stamp_ns)),
             ("tour", tour_to_msg(NO_POINTS, stamp_ns)),
         ]
+    keypoints, markers, path = stand_messages(tour, positions, quat_xyzw, ids, labels, stamp_ns, removed)
+    return [keypoints, markers, leg_messages(tour, ids, stamp_ns), path]
+
+
+def stand_messages(
+    tour: TourLike,
+    positions: NDArray[np.float64],
+    quat_xyzw: NDArray[np.float64],
+    ids: Sequence[int],
+    labels: Sequence[str],
+    stamp_ns: int,
+    removed: Iterable[int] = (),
+) -> TopicMessages:
+    """Returns what `tour_messages` does without the legs of all pairs: those are many, and no edit waits for them."""
     order = [int(i) for i in tour.order]
-    left_out = {int(u.index): u.reason for u in tour.unreachable}
     eyes = tour.stands[order]
     markers = keypoint_markers_to_msg(
         eyes,
@@ -123,15 +136,20 @@ def tour_messages(
         [ids[i] for i in order],
         [labels[i] for i in order],
         stamp_ns,
-        left_out=[(ids[i], positions[i], reason) for i, reason in left_out.items()],
+        left_out=[(ids[u.index], positions[u.index], u.reason) for u in tour.unreachable],
         removed=removed,
     )
     return [
         ("keypoints", keypoints_to_msg(eyes, quat_xyzw[order], stamp_ns)),
         ("keypoint_markers", markers),
-        ("pairwise_paths", pairwise_paths_to_msg(tour.pairs, ids, stamp_ns, _no_way(tour, left_out))),
         ("tour", tour_to_msg(tour.polyline, stamp_ns)),
     ]
+
+
+def leg_messages(tour: TourLike, ids: Sequence[int], stamp_ns: int) -> tuple[str, Any]:
+    """Returns topic and message of the legs of all pairs."""
+    left_out = {int(u.index): u.reason for u in tour.unreachable}
+    return "pairwise_paths", pairwise_paths_to_msg(tour.pairs, ids, stamp_ns, _no_way(tour, left_out))
 
 
 def _no_way(tour: TourLike, left_out: dict[int, str]) -> list[tuple[int, int, str]]:

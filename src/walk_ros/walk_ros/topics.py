@@ -13,7 +13,7 @@ from nav_msgs.msg import OccupancyGrid, Path
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import PointCloud2
 from trajectory_msgs.msg import MultiDOFJointTrajectory
-from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
+from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerUpdate, MarkerArray
 
 from walk_ros.qos import best_effort, latched, reliable
 
@@ -42,6 +42,8 @@ TOPICS: dict[str, Topic] = {
     "tour": Topic(type=Path, qos=latched()),
     "keypoint_edits": Topic(type=InteractiveMarkerFeedback, qos=reliable()),
     "edit_results": Topic(type=DiagnosticStatus, qos=reliable()),
+    "keypoint_editor/update": Topic(type=InteractiveMarkerUpdate, qos=reliable(100)),
+    "keypoint_editor/feedback": Topic(type=InteractiveMarkerFeedback, qos=reliable()),
     "path": Topic(type=Path, qos=latched()),
     "trajectory": Topic(type=MultiDOFJointTrajectory, qos=latched()),
     "viewpoint": Topic(type=PoseStamped, qos=best_effort()),

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from walk_building.errors import WalkError
-from walk_sequencer.keypoints import Entry, Keypoints, changed
+from walk_sequencer.changes import Entry
+from walk_sequencer.history import History
 
 _log = logging.getLogger(__name__)
 
@@ -43,8 +44,8 @@ class Journal:
         """Opens the journal; `replay` reads it and must come before `append`."""
         self.path = folder / f"{building_hash}.jsonl"
 
-    def replay(self) -> Keypoints:
-        """Returns the keypoints after all changes in the journal; no keypoints where there is none.
+    def replay(self) -> History:
+        """Returns the keypoints after all changes in the journal, with their past; none where there is no journal.
 
         A last line that was cut off by a crash was never confirmed and is taken off. From a line on that does not
         fit for another reason the journal is put aside, and what stands before it counts.
@@ -80,22 +81,22 @@ class Journal:
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 
-    def _replay(self) -> Keypoints:
+    def _replay(self) -> History:
         self.path.parent.mkdir(parents=True, exist_ok=True)
-        keypoints = Keypoints()
+        history = History()
         if not self.path.exists():
-            return keypoints
+            return history
         text = self.path.read_bytes()
         good = 0
         for end, line in _lines(text):
             try:
-                keypoints = changed(keypoints, json.loads(line))
+                history.apply(json.loads(line))
             except (ValueError, KeyError, TypeError, AttributeError):
                 break
             good = end
         if good < len(text):
             self._cut(text, good)
-        return keypoints
+        return history
 
     def _cut(self, text: bytes, good: int) -> None:
         """Keeps the first `good` bytes; a whole copy is put aside unless only the last line is missing its end."""

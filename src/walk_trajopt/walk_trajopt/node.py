@@ -17,6 +17,7 @@ from walk_building.footing import eye_over_floor
 from walk_ros.conversions import (
     EditKind,
     KeypointEdit,
+    KeypointMarks,
     LabelledKeypoints,
     Outcome,
     Poses,
@@ -24,6 +25,7 @@ from walk_ros.conversions import (
     edit_from_msg,
     edit_result_from_msg,
     keypoint_markers_from_msg,
+    keypoint_marks_from_msg,
     keypoints_from_msg,
     tour_from_msg,
 )
@@ -35,7 +37,7 @@ from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.optimiser import Optimiser
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.state import State
-from walk_trajopt.targets import look_targets
+from walk_trajopt.targets import NOWHERE, look_targets
 from walk_trajopt.timing import time_path
 
 
@@ -46,6 +48,7 @@ class Plan:
     stamp_ns: int
     keypoints: Poses
     ids: tuple[int, ...]
+    marks: KeypointMarks
     polyline: NDArray[np.float64]
 
 
@@ -59,15 +62,17 @@ class TrajoptNode(WalkNode):
         self._holds = Holds()
         self._followed: dict[int, str] = {}
         self._undo = False
+        self._marks = KeypointMarks()
         self._plan: Plan | None = None
         self._optimiser: Optimiser | None = None
         self._settled: State | None = None
         self._solved_for: tuple[Any, ...] = ()
         self.offer("path", "trajectory")
         self.take_in("keypoints", lambda msg: self._store("keypoints", keypoints_from_msg(msg)))
-        self.take_in("keypoint_markers", lambda msg: self._store("keypoint_markers", keypoint_markers_from_msg(msg)))
+        self.take_in("keypoint_markers", self._store_markers)
         self.take_in("tour", lambda msg: self._store("tour", tour_from_msg(msg)))
         self.take_in("keypoint_edits", self._store_edit)
+        self.take_in("keypoint_editor/feedback", self._store_edit)
         self.take_in("edit_results", self._store_result)
         self.start()
 
@@ -112,7 +117,13 @@ class TrajoptNode(WalkNode):
             and keypoints.stamp_ns == markers.poses.stamp_ns == tour.stamp_ns
             and len(markers.ids) == len(keypoints.positions)
         ):
-            self._plan = Plan(stamp_ns=tour.stamp_ns, keypoints=keypoints, ids=markers.ids, polyline=tour.positions)
+            self._plan = Plan(
+                stamp_ns=tour.stamp_ns,
+                keypoints=keypoints,
+                ids=markers.ids,
+                marks=self._marks,
+                polyline=tour.positions,
+            )
         return self._plan
 
     def _solve(self, building: Building, plan: Plan, config: TrajoptConfig, timing: TimingConfig) -> None:
@@ -152,8 +163,11 @@ class TrajoptNode(WalkNode):
 
     def _publish(self, path: OptimisedPath, timing: TimingConfig) -> None:
         assert self._plan is not None and self._optimiser is not None
-        targets = look_targets(self._optimiser.state.keypoints, self._plan.keypoints.quat_xyzw)
-        trajectory = time_path(path, timing, look_at=targets)
+        ids, marks = self._plan.ids, self._plan.marks
+        chosen = np.array([marks.look_at.get(i, NOWHERE) for i in ids])
+        targets = look_targets(self._optimiser.state.keypoints, self._plan.keypoints.quat_xyzw, chosen)
+        dwell_s = [marks.dwell_s.get(i, timing.dwell_s) for i in ids]
+        trajectory = time_path(path, timing, look_at=targets, dwell_s=dwell_s)
         stamp_ns = self.revision()
         self.publish_all(path_bytes(trajectory, stamp_ns))
         sentence = f"{path.length_m:.1f} m in {trajectory.duration_s:.0f} s, {len(path.repaired)} stretches repaired"
@@ -169,8 +183,16 @@ class TrajoptNode(WalkNode):
         self._newest[topic] = value
         self.worker.wake()
 
+    def _store_markers(self, msg: Any) -> None:
+        # Before the keypoints: a plan takes both once its three messages agree.
+        self._marks = keypoint_marks_from_msg(msg)
+        self._store("keypoint_markers", keypoint_markers_from_msg(msg))
+
     def _store_edit(self, msg: Any) -> None:
         edit = edit_from_msg(msg)
+        # All but moving is the sequencer's: the path follows with its next revision.
+        if edit.kind is EditKind.CHANGE or edit.keypoint in self._marks.locked:
+            return
         # The sequencer refuses an edit of what another editor holds; it is not followed here either.
         if self._holds.take(edit.keypoint, edit.client_id, self.now_s()):
             return

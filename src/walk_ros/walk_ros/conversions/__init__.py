@@ -5,7 +5,9 @@
 Every `x_from_msg` checks what comes in and raises MessageError with the reason; nothing unsound passes it.
 """
 
+from walk_ros.conversions.edit_marks import KeypointMarks, keypoint_marks_from_msg, keypoint_marks_to_msgs
 from walk_ros.conversions.edits import (
+    Change,
     EditKind,
     EditResult,
     KeypointEdit,
@@ -31,9 +33,11 @@ from walk_ros.conversions.storeys import StoreyGrid, storey_grid, storey_grid_fr
 from walk_ros.conversions.trajectories import ReceivedTrajectory, trajectory_from_msg, trajectory_to_msg
 
 __all__ = [
+    "Change",
     "EditKind",
     "EditResult",
     "KeypointEdit",
+    "KeypointMarks",
     "LabelledKeypoints",
     "Outcome",
     "Poses",
@@ -49,6 +53,8 @@ __all__ = [
     "edit_to_msg",
     "importance_map_from_msg",
     "importance_map_to_msg",
+    "keypoint_marks_from_msg",
+    "keypoint_marks_to_msgs",
     "keypoint_markers_from_msg",
     "keypoint_markers_to_msg",
     "keypoints_from_msg",
