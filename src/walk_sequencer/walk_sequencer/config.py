@@ -24,7 +24,13 @@ class SequencerConfig(Config):
         "how the order is found: auto is exact up to 14 keypoints and local_search above; given keeps the user's",
         choices=METHODS,
     )
-    start: int = param(-1, "index of the keypoint to start at; -1 leaves it free", low=-1)
+    begin: str = param(
+        "entrance",
+        "where the tour begins unless start says so: at the keypoint nearest to the building's entrance, or wherever "
+        "it is shortest",
+        choices=("entrance", "anywhere"),
+    )
+    start: int = param(-1, "index of the keypoint to start at; -1 leaves it to begin", low=-1)
     end: int = param(-1, "index of the keypoint to end at; -1 leaves it free", low=-1)
     comfort_m: float = param(
         0.3, "distance to the walls, beyond the body, from which a leg has nothing to gain", unit="m", low=0.0, high=2.0

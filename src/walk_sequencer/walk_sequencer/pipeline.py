@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from walk_building.building import Building
 from walk_building.errors import ParameterError
 from walk_building.progress import Progress, no_progress
+from walk_sequencer.beginning import first_from_entrance
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.order import ORDERS, resolve_method
 from walk_sequencer.pairs import plan_pairs
@@ -50,13 +51,15 @@ def plan_tour(
     mask = part_of_tour(building, floor, config)
     if not mask.any():
         reason = "the building has no floor indoors to start on"
-        return _assemble(len(floor), {}, tuple(Unreachable(index=k, reason=reason) for k in range(len(floor))), config)
+        return _assemble(
+            building, len(floor), {}, tuple(Unreachable(index=k, reason=reason) for k in range(len(floor))), config
+        )
     roadmap = _usable(previous, building, mask, config)
     if roadmap is None:
         roadmap = build_roadmap(building.surface, building.walker, mask, config, progress)
     stands, unreachable = place_keypoints(building, roadmap, floor, config)
     pairs = _plan_legs(roadmap, stands, previous, progress)
-    return _assemble(len(floor), stands, unreachable, config, roadmap, pairs, progress)
+    return _assemble(building, len(floor), stands, unreachable, config, roadmap, pairs, progress)
 
 
 def _check_ends(config: SequencerConfig, count: int) -> None:
@@ -103,6 +106,7 @@ def _plan_legs(
 
 
 def _assemble(
+    building: Building,
     count: int,
     stands: dict[int, Stand],
     unreachable: tuple[Unreachable, ...],
@@ -120,11 +124,15 @@ def _assemble(
     method = resolve_method(config.method, len(names))
     # An end that cannot be reached is reported as such and is otherwise as good as none.
     start, end = (int(np.flatnonzero(names == k)[0]) if k in stands else -1 for k in (config.start, config.end))
+    eyes = _eyes(roadmap, stands, count)
+    if config.start < 0 and config.begin == "entrance" and method != "given":
+        start = first_from_entrance(building, eyes[names])
+        # A tour that is wished to end at the entrance begins elsewhere.
+        start = -1 if start == end else start
     order = names[ORDERS[method](lengths[np.ix_(names, names)], start, end, config)]
     progress("order", 1.0)
     by_pair = {(leg.start, leg.goal): leg for leg in pairs}
     legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in itertools.pairwise(order.tolist()))
-    eyes = _eyes(roadmap, stands, count)
     polyline = _polyline(legs, eyes[order])
     for array in (lengths, order, eyes, polyline):
         array.setflags(write=False)
