@@ -65,5 +65,12 @@ def test_the_walk_is_free_level_and_brisk(file: str, buildings_dir: Path) -> Non
 def test_the_bench_measures_every_solver(rooms: Building) -> None:
     tour = np.array([[1, 1, 1.6], [1, 2, 1.6], [7, 2, 1.6], [7, 3, 1.6]])
     found = bench_trajectory(rooms, tour, tour[[0, 1, 3]], TrajoptConfig(points=40, max_iterations=60), edits=5)
-    assert {"solve_ms", "edit_p50_ms", "plain_over_edit", "cost_lbfgs", "solve_lbfgs_whitened_ms"} <= set(found)
+    assert {
+        "solve_ms",
+        "edit_p50_ms",
+        "trimesh_over_edit",
+        "bvh_over_solve",
+        "cost_lbfgs",
+        "solve_lbfgs_whitened_ms",
+    } <= set(found)
     assert found["points"] == 40 and all(np.isfinite(v) and v >= 0 for v in found.values())

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the trajectory costs, beside the plain way: SciPy's L-BFGS-B with closest points by trimesh."""
+"""What the trajectory costs, beside the plain way: SciPy's L-BFGS-B, with closest points by trimesh or by our tree."""
 
 from __future__ import annotations
 
@@ -17,8 +17,12 @@ from walk_building.geometry import Closest, Geometry
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.optimiser import Optimiser
 from walk_trajopt.polyline import as_polyline_points
+from walk_trajopt.problem import Problem
 from walk_trajopt.solvers import SOLVERS
 from walk_trajopt.timing import time_path
+
+_REACH_M = 0.1  # by which a measured edit moves its keypoint, at most, along x and along y
+_LONG = 20_000  # iterations: the reference runs until it converges
 
 
 class _PlainGeometry(Geometry):
@@ -45,8 +49,12 @@ def bench_trajectory(
     config: TrajoptConfig | None = None,
     edits: int = 50,
     plain: bool = True,
+    compared: int = 5,
 ) -> dict[str, float]:
-    """Returns times in milliseconds, iterations and costs, by name.
+    """Returns times in milliseconds, iterations, costs and ratios, by name.
+
+    A warm edit is timed as a whole: bent, solved, swept, repaired. What it is compared with solves the very same
+    problem from the same start, with the same cost, by SciPy's L-BFGS-B and does nothing else.
 
     Args:
         building: Where to walk.
@@ -54,32 +62,81 @@ def bench_trajectory(
         keypoints: (M, 3) in its order [m].
         config: The problem; its solver is the one that is measured.
         edits: How many random moves of up to 0.1 m the warm edit is measured over; their median counts.
-        plain: Measure the plain way, too; it takes minutes on a large building.
+        plain: Measure closest points by trimesh, too; it takes minutes on a large building.
+        compared: How many of the edits the references solve, too; medians of these count.
     """
     config = config or TrajoptConfig()
     optimiser = Optimiser(building, polyline, keypoints, config)
     _solved(optimiser)  # compiles
     out: dict[str, float] = {"points": float(len(optimiser.state.x))}
-    out["solve_ms"] = _milliseconds(optimiser.solve)
-    out["check_ms"] = _milliseconds(optimiser.check)
+    out["solve_ms"] = _median(optimiser.solve)
+    out["check_ms"] = _median(optimiser.check)
     path = optimiser.path()
     time_path(path)
-    out["timing_ms"] = _milliseconds(lambda: time_path(path))
-    out.update(cost=path.total_cost, iterations=float(path.iterations), evaluations=float(path.evaluations))
+    out["timing_ms"] = _median(lambda: time_path(path))
     for name in SOLVERS:
         other = Optimiser(building, polyline, keypoints, dataclasses.replace(config, solver=name))
-        out[f"solve_{name}_ms"] = _milliseconds(other.solve)
-        out[f"cost_{name}"] = other.check().total_cost
-    times, accepted = _edits(optimiser, as_polyline_points("keypoints", keypoints, 0), edits)
+        out[f"solve_{name}_ms"] = _median(other.solve, 1)
+        solved = other.path()
+        out[f"cost_{name}"], out[f"iterations_{name}"] = solved.total_cost, float(solved.iterations)
+    stops = as_polyline_points("keypoints", keypoints, 0)
+    times, accepted = _edits(optimiser, stops, edits)
     out.update(edit_p50_ms=float(np.median(times)), edit_p99_ms=float(np.percentile(times, 99)))
     out["edits_accepted"] = accepted
-    if plain:
-        slow = dataclasses.replace(building, geometry=_PlainGeometry(building.geometry))
-        reference = Optimiser(slow, polyline, keypoints, dataclasses.replace(config, solver="lbfgs"))
-        out["plain_solve_ms"] = _milliseconds(reference.solve)
-        out["plain_over_solve"] = out["plain_solve_ms"] / out["solve_ms"]
-        out["plain_over_edit"] = out["plain_solve_ms"] / out["edit_p50_ms"]
+    ways = {"bvh": building} | (
+        {"trimesh": dataclasses.replace(building, geometry=_PlainGeometry(building.geometry))} if plain else {}
+    )
+    for name, place in ways.items():
+        out.update(_against(name, optimiser, place, config, polyline, stops, compared, out["solve_ms"]))
     return out
+
+
+def _against(
+    name: str,
+    optimiser: Optimiser,
+    place: Building,
+    config: TrajoptConfig,
+    polyline: ArrayLike,
+    stops: NDArray[np.float64],
+    compared: int,
+    solve_ms: float,
+) -> dict[str, float]:
+    """Returns what the reference needs on a building whose closest points are found its way."""
+    lbfgs = dataclasses.replace(config, solver="lbfgs", max_iterations=_LONG)
+    out: dict[str, float] = {}
+    whole = Optimiser(place, polyline, stops, lbfgs)
+    out[f"{name}_solve_ms"] = _median(whole.solve, 1)
+    out[f"{name}_over_solve"] = out[f"{name}_solve_ms"] / max(solve_ms, 1e-9)
+    out[f"solve_cost_over_{name}"] = _cost(optimiser) / max(whole.path().total_cost, 1e-9)
+    random = np.random.default_rng(1)
+    ours, theirs, costs = [], [], []
+    for _ in range(compared):
+        k, there = _move(random, stops)
+        seen: list[tuple[Problem, NDArray[np.float64], float]] = []
+        optimiser.watch = lambda problem, start, cost, seen=seen: seen.append((problem, start, cost))
+        started = time.perf_counter()
+        optimiser.move_keypoint(k, there)
+        ours.append(time.perf_counter() - started)
+        optimiser.watch = None
+        problem, start, cost = seen[0]
+        setting = dataclasses.replace(problem.setting, geometry=place.geometry)
+        plain = Problem(setting, config, problem.fixed)
+        started = time.perf_counter()
+        solution = SOLVERS["lbfgs"](plain, start, lbfgs)
+        theirs.append(time.perf_counter() - started)
+        costs.append(cost / max(solution.cost, 1e-9))
+    out[f"{name}_edit_ms"] = 1e3 * float(np.median(theirs))
+    out[f"{name}_over_edit"] = float(np.median(np.array(theirs) / np.array(ours)))
+    out[f"edit_cost_over_{name}_max"] = float(np.max(costs))
+    return out
+
+
+def _cost(optimiser: Optimiser) -> float:
+    state = optimiser.state
+    optimiser.solve()
+    cost = optimiser.path().total_cost
+    optimiser.state = state
+    return cost
 
 
 def _solved(optimiser: Optimiser) -> None:
@@ -87,19 +144,27 @@ def _solved(optimiser: Optimiser) -> None:
     optimiser.check()
 
 
-def _milliseconds(run: Callable[[], object]) -> float:
-    started = time.perf_counter()
-    run()
-    return 1e3 * (time.perf_counter() - started)
+def _median(run: Callable[[], object], repeats: int = 5) -> float:
+    """Returns the median time of some runs [ms]."""
+    times = []
+    for _ in range(repeats):
+        started = time.perf_counter()
+        run()
+        times.append(1e3 * (time.perf_counter() - started))
+    return float(np.median(times))
 
 
-def _edits(optimiser: Optimiser, keypoints: NDArray[np.float64], edits: int) -> tuple[NDArray[np.float64], float]:
+def _move(random: np.random.Generator, stops: NDArray[np.float64]) -> tuple[int, NDArray[np.float64]]:
+    k = int(random.integers(len(stops)))
+    return k, stops[k] + [*random.uniform(-_REACH_M, _REACH_M, 2), 0.0]
+
+
+def _edits(optimiser: Optimiser, stops: NDArray[np.float64], edits: int) -> tuple[NDArray[np.float64], float]:
     random = np.random.default_rng(0)
     times, accepted = np.zeros(edits), 0
     for i in range(edits):
-        k = int(random.integers(len(keypoints)))
-        place = keypoints[k] + [*random.uniform(-0.1, 0.1, 2), 0.0]
+        k, there = _move(random, stops)
         started = time.perf_counter()
-        accepted += optimiser.move_keypoint(k, place).accepted
+        accepted += optimiser.move_keypoint(k, there).accepted
         times[i] = 1e3 * (time.perf_counter() - started)
     return times, accepted / max(edits, 1)

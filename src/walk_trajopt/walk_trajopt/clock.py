@@ -17,6 +17,8 @@ from walk_trajopt.heading import Heading
 _TICK_S = 0.01
 _APART = 3  # places of the grid between two rests, at least
 _CREEP_MPS = 0.05  # slowest speed in the tightest turn: a corner of a polyline is passed, not stopped at
+_BESIDE_M = 0.03  # on both sides of a turn on the spot
+_STEP_S = 0.1  # a turn on the spot may change the velocity by what the lateral limit allows in this time
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,6 +99,11 @@ def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray
     """Returns the highest speed (g,) at each place of the grid: in turns the body and the eyes have theirs."""
     lateral = np.sqrt(config.max_lateral_acceleration_mps2 / np.maximum(heading.bend, 1e-9))
     turning = np.abs(np.gradient(heading.look, heading.spacing_m))
+    # Where the path turns on the spot, curvature does not say how sudden that is; the change of direction does.
+    ahead, behind = (np.interp(heading.arc_m + side, heading.arc_m, heading.yaw) for side in (_BESIDE_M, -_BESIDE_M))
+    corner = np.minimum(np.abs(ahead - behind), np.pi)
+    sudden = config.max_lateral_acceleration_mps2 * _STEP_S / np.maximum(2.0 * np.sin(0.5 * corner), 1e-9)
+    lateral = np.minimum(lateral, sudden)
     looking = config.max_turn_rate_radps / np.maximum(turning, 1e-9)
     return np.minimum(speed_mps, np.maximum(np.minimum(lateral, looking), min(_CREEP_MPS, speed_mps)))
 

@@ -25,7 +25,8 @@ class Heading:
 
 
 _LEAST_CELLS = 9  # a path of centimetres still has somewhere to speed up and slow down
-_BODY_M = 0.2  # over which a bend is averaged: nobody's hips follow a polyline's corners
+_BODY_M = 0.03  # over which a bend is averaged, so that the grid sees every corner
+_CORNER_M = 0.06  # a polyline's corner is taken as a bend over so much of its sides, or over half a shorter side
 
 
 def heading_of(
@@ -42,10 +43,10 @@ def heading_of(
     count = int(np.ceil(arc_m[-1] / GRID_M)) + 1
     grid = np.linspace(0.0, arc_m[-1], max(count, _LEAST_CELLS))
     spacing = float(grid[1])
-    step = np.diff(points, axis=0)
-    flat = np.hypot(step[:, 0], step[:, 1])
-    yaw = np.arctan2(step[:, 1], step[:, 0])
-    level = flat > 1e-3 * np.diff(arc_m)
+    knots, direction = _directions(points, arc_m)
+    flat = np.hypot(direction[:, 0], direction[:, 1])
+    yaw = np.arctan2(direction[:, 1], direction[:, 0])
+    level = flat > 1e-3
     if not level.all():
         # Straight up or down there is no direction: the one before, or the first there is, goes on.
         known = np.flatnonzero(level)
@@ -54,9 +55,8 @@ def heading_of(
             if len(known)
             else 0 * yaw
         )
-    pitch = np.arctan2(step[:, 2], flat)
-    segment = np.clip(np.searchsorted(arc_m, grid, side="right") - 1, 0, len(yaw) - 1)
-    along, slope = np.unwrap(yaw)[segment], pitch[segment]
+    along = np.interp(grid, knots, np.unwrap(yaw))
+    slope = np.interp(grid, knots, np.arctan2(direction[:, 2], flat))
     body = _BODY_M / spacing
     turned, tilted = (gaussian_filter1d(a, body, mode="nearest") for a in (along, slope))
     look = gaussian_filter1d(along, smoothing_m / spacing, mode="nearest")
@@ -67,3 +67,18 @@ def heading_of(
         look=np.interp(grid + lookahead_m, grid, look),
         bend=np.hypot(np.gradient(turned, spacing) * np.cos(tilted), np.gradient(tilted, spacing)),
     )
+
+
+def _directions(
+    points: NDArray[np.float64], arc_m: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Returns arc lengths (k,) and there the directions (k, 3) of the smooth curve for which the polyline stands.
+
+    Between them the direction goes on linearly: along each side it is that of the side, but for its ends, where it
+    turns into the next one.
+    """
+    side = np.diff(arc_m)
+    near = np.minimum(_CORNER_M, 0.5 * side)
+    unit = np.diff(points, axis=0) / side[:, None]
+    knots = np.column_stack([arc_m[:-1] + near, arc_m[1:] - near]).ravel()
+    return knots, np.repeat(unit, 2, axis=0)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +25,8 @@ from walk_trajopt.solvers import SOLVERS, Solution
 from walk_trajopt.state import State, bent, initial_state
 
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
+
+_ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
 
 _EASE_M = 1.5  # on both sides of a colliding stretch that is optimised again
 _EASED = "optimised again with more weight on the clearance"
@@ -46,6 +49,7 @@ class Optimiser:
     Attributes:
         config: As given.
         state: The solution; taking back an earlier one undoes what came after it.
+        watch: Told of each problem that is solved, where it started and at what cost it ended; for benchmarks.
     """
 
     def __init__(
@@ -61,12 +65,22 @@ class Optimiser:
         n = point_count(tour.length_m, self.config)
         self.state: State = initial_state(tour, stops, self._radii(stops), keypoint_arcs(tour, stops), n)
         self._spacing_m = tour.length_m / (n - 1)
+        self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
-        """Solves the whole problem from the planned tour."""
+        """Solves the whole problem from the planned tour.
+
+        There are many minima, and which one is found depends on the way. The default solver is fast enough to go two
+        ways, straight from the tour and after a problem with more clearance; the better end counts.
+        """
         start = dataclasses.replace(self.state, x=self.state.start)
-        self._solution = self._solve(start, 0, len(start.x) - 1)
+        last = len(start.x) - 1
+        self._solution = self._solve(start, 0, last)
+        if self.config.solver == "levenberg_marquardt":
+            wide = self._solve(start, 0, last, dataclasses.replace(self._stiffer(), tolerance=_ROUGH))
+            other = self._solve(dataclasses.replace(start, x=wide.x), 0, last)
+            self._solution = min(self._solution, other, key=lambda solution: solution.cost)
         solved = dataclasses.replace(start, x=self._solution.x)
         self.state = dataclasses.replace(solved, cost=self._window_cost(solved, 0, len(start.x) - 1))
 
@@ -150,14 +164,20 @@ class Optimiser:
         fixed[first + 1 - low : last - low] = False
         problem = Problem(self._setting(state, low, high), config, fixed)
         solution = SOLVERS[config.solver](problem, state.x[low:high], config)
+        if self.watch is not None:
+            self.watch(problem, state.x[low:high], solution.cost)
         x = state.x.copy()
         x[low:high] = solution.x
         return dataclasses.replace(solution, x=x)
 
+    def _stiffer(self) -> TrajoptConfig:
+        return dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
+
     def _window_cost(self, state: State, first: int, last: int) -> dict[str, float]:
         """Returns the weighted value of each objective over all terms that the points between the two are part of."""
         low, high = _around(state, first, last)
-        return Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool)).costs(state.x[low:high])
+        problem = Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool))
+        return problem.costs(state.x[low:high])
 
     def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""
@@ -215,8 +235,7 @@ class Optimiser:
             return state
         x = state.x.copy()
         x[first + 1 : last] = state.start[first + 1 : last]
-        stiffer = dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
-        solution = self._solve(dataclasses.replace(state, x=x), first, last, stiffer)
+        solution = self._solve(dataclasses.replace(state, x=x), first, last, self._stiffer())
         return dataclasses.replace(state, x=solution.x)
 
 

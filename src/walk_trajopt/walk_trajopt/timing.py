@@ -78,28 +78,22 @@ def _per_keypoint(name: str, values: ArrayLike | None, shape: tuple[int, ...], d
 def _samples(
     clock: Clock, arc_m: NDArray[np.float64], step_s: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Returns rising times and the arc lengths there: an even grid, and the moment at each point of the path."""
-    # A little closer than asked, so that one may give way to a point of the path beside it.
-    even = np.linspace(0.0, clock.t_s[-1], int(np.ceil(clock.t_s[-1] / max(step_s - _APART_S, 0.5 * step_s))) + 1)
+    """Returns rising times and the arc lengths there: the moments at the points of the path, evenly divided between."""
     # Arc length does not rise while the walker stands; the first moment at a place is the one that counts.
     rising = np.concatenate([[True], np.diff(clock.arc_m) > 1e-12])
     passed = np.interp(arc_m[1:-1], clock.arc_m[rising], clock.t_s[rising])
-    apart = np.diff(passed, prepend=-np.inf) > _APART_S
-    passed, passed_m = passed[apart], arc_m[1:-1][apart]
-    near = np.abs(even[:, None] - _nearest(passed, even)[:, None])[:, 0] if len(passed) else np.full(len(even), np.inf)
-    keep = near > _APART_S
-    keep[[0, -1]] = True
-    inner = (passed > even[0] + _APART_S) & (passed < even[-1] - _APART_S)
-    t = np.concatenate([even[keep], passed[inner]])
-    at = np.concatenate([np.interp(even[keep], clock.t_s, clock.arc_m), passed_m[inner]])
-    order = np.argsort(t, kind="stable")
-    return t[order], np.maximum.accumulate(at[order])
-
-
-def _nearest(values: NDArray[np.float64], to: NDArray[np.float64]) -> NDArray[np.float64]:
-    right = np.clip(np.searchsorted(values, to), 0, len(values) - 1)
-    left = np.maximum(right - 1, 0)
-    return np.where(np.abs(values[left] - to) < np.abs(values[right] - to), values[left], values[right])
+    inner = (passed > clock.t_s[0] + _APART_S) & (passed < clock.t_s[-1] - _APART_S)
+    inner &= np.diff(passed, prepend=-np.inf) > _APART_S
+    marks = np.concatenate([clock.t_s[:1], passed[inner], clock.t_s[-1:]])
+    places = np.concatenate([arc_m[:1], arc_m[1:-1][inner], arc_m[-1:]])
+    pieces = np.maximum(np.ceil(np.diff(marks) / step_s - 1e-9), 1).astype(np.int64)
+    gap = np.repeat(np.arange(len(pieces)), pieces)
+    share = (np.arange(len(gap)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[gap]
+    t = np.append(marks[gap] + share * np.diff(marks)[gap], marks[-1])
+    at = np.interp(t, clock.t_s, clock.arc_m)
+    # At the points themselves exactly, so that no sample cuts a corner.
+    at[np.append(share == 0.0, True)] = places
+    return t, np.maximum.accumulate(at)
 
 
 def _trajectory(

@@ -1,13 +1,10 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Levenberg–Marquardt on the banded structure of the problem (`levenberg1944`, `marquardt1963`).
-
-A point's coordinates meet only those of its neighbours and of theirs: with the unknowns in the order x₁ y₁ z₁ x₂ … the
-Gauss–Newton matrix has six bands beside its diagonal, and a step costs time linear in n.
+"""Levenberg–Marquardt on the banded structure of the problem (`levenberg1944`, `marquardt1963`), aware of kinks.
 
 In the middle between two walls that are nearer than twice the wished clearance the cost has a kink, and a step that
-sees one wall overshoots towards the other. Points that are pushed back by such a step are held stiffer than the rest
-(our own); a common damping would freeze the whole path for their sake.
+sees one wall overshoots towards the other. The model of a step therefore keeps the largest of several functions as
+what it is (`newton.py`); the geometry is asked once for each step, and the step costs time linear in n.
 """
 
 from __future__ import annotations
@@ -18,11 +15,11 @@ from numpy.typing import NDArray
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.problem import Problem
 from walk_trajopt.solvers.base import Solution
-from walk_trajopt.solvers.newton import newton_step
+from walk_trajopt.solvers.newton import Model, newton_step
 
 # In units of the median of the constant matrix's diagonal. The first holds steps to decimetres: as far as a model of
 # the nearest walls is worth anything.
-_FIRST_DAMPING = 0.1
+_FIRST_DAMPING = 0.01
 _LEAST_DAMPING = 1e-8
 _MOST_DAMPING = 1e4
 _SMALL_ENDS = 8  # iterations in a row that lower the cost by less than the tolerance, steps taken back included
@@ -37,10 +34,18 @@ def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: Trajo
     iterations = small = 0
     while iterations < config.max_iterations and damping <= _MOST_DAMPING:
         iterations += 1
-        stiff = np.full(len(x), damping * scale)
-        step, promised = newton_step(
-            base, here.gradient, here.values, here.slopes, here.bends, problem.first, problem.scale, stiff, problem.fixed
+        model = Model(
+            base=base,
+            gradient=here.gradient,
+            values=here.values,
+            slopes=here.slopes,
+            bends=here.bends,
+            first=problem.first,
+            scale=problem.scale,
+            damping=damping * scale,
+            fixed=problem.fixed,
         )
+        step, promised = newton_step(model)
         there = problem.linearise(x + step)
         gain = here.value - there.value
         damping *= _response(gain, promised)
