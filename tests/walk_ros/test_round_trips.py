@@ -10,6 +10,7 @@ from sensor_msgs.msg import PointField
 
 from walk_ros import conversions as c
 from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
+from walk_ros.conversions.legs_cdr import pairwise_paths_to_bytes
 from walk_ros.conversions.paths import headings
 from walk_ros.raw import from_bytes, to_bytes
 from walk_ros.topics import type_name
@@ -238,6 +239,20 @@ def test_edit_result_arrives_as_sent(outcome):
         better_order_saves_m=1.25,
     )
     assert c.edit_result_from_msg(over_the_wire(c.edit_result_to_msg(result))) == result
+
+
+@pytest.mark.parametrize("count", [0, 1, 9])
+@pytest.mark.parametrize("reasons", [[], ["no stairs"], ["ä", "", "four"]])
+def test_legs_written_in_place_are_the_same_message(count, reasons):
+    rng = np.random.default_rng(count)
+    legs = [
+        SimpleNamespace(start=0, goal=k, points=rng.normal(size=(k % 4, 3)), length_m=10.0 ** (k - 3) / 3)
+        for k in range(count)
+    ]
+    ids = [3, *(10**k for k in range(9))]
+    arguments = (legs, ids, STAMP, [(k, 0, reason) for k, reason in enumerate(reasons)])
+    msg = from_bytes(pairwise_paths_to_bytes(*arguments), "visualization_msgs/msg/MarkerArray")
+    assert msg == over_the_wire(c.pairwise_paths_to_msg(*arguments))
 
 
 @pytest.mark.parametrize("rows", [0, 1, 2, 17])

@@ -33,7 +33,7 @@ from walk_ros.editor import FEEDBACK, KeypointEditor
 from walk_ros.errors import MessageError
 from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
-from walk_ros.results import NO_POINTS, NO_TURNS, leg_messages, stand_messages, tour_messages
+from walk_ros.results import NO_POINTS, NO_TURNS, leg_bytes, stand_messages, tour_messages
 from walk_ros.runner import run_node
 from walk_sequencer.authority import HALF_WAY, Authority, Planned
 from walk_sequencer.config import SequencerConfig
@@ -207,7 +207,7 @@ class SequencerNode(WalkNode):
         """Publishes the legs of all pairs of the last revision."""
         planned = authority.planned
         if planned is not None:
-            self.publish_all([leg_messages(planned.tour, planned.keypoints.ids, self._revision_ns)])
+            self.publish_all([leg_bytes(planned.tour, planned.keypoints.ids, self._revision_ns)])
 
     def _reply(self, asked: Asked, outcome: Outcome, reason: str, keypoint: int = -1, saves_m: float = 0.0) -> None:
         edit = asked.edit

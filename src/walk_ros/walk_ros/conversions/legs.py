@@ -20,8 +20,8 @@ from walk_ros.conversions.stamps import header_to_msg
 
 LEGS = "legs"
 NO_WAY = "no_way"
-_GREEN = (0.25, 0.65, 0.30)
-_RED = (0.85, 0.15, 0.10)
+GREEN, RED = (0.25, 0.65, 0.30), (0.85, 0.15, 0.10)
+WIDTH_M, WORD_M = 0.03, 0.2
 _LEG_TEXT = re.compile(r"(-?\d+) to (-?\d+): ([0-9.e+-]+) m")
 _NO_WAY_TEXT = re.compile(r"(-?\d+) to (-?\d+): (.+)")
 
@@ -83,14 +83,14 @@ def pairwise_paths_to_msg(
     """
     markers = [Marker(header=header_to_msg(stamp_ns), action=Marker.DELETEALL)]
     for number, leg in enumerate(legs):
-        line = marker(stamp_ns, LEGS, number, Marker.LINE_STRIP, _GREEN)
-        line.pose.orientation, line.scale = no_turn(), Vector3(x=0.03)
+        line = marker(stamp_ns, LEGS, number, Marker.LINE_STRIP, GREEN)
+        line.pose.orientation, line.scale = no_turn(), Vector3(x=WIDTH_M)
         line.points = point_msgs(leg.points)
         line.text = f"{ids[leg.start]} to {ids[leg.goal]}: {leg.length_m!r} m"
         markers.append(line)
     for number, (start, goal, reason) in enumerate(no_way):
-        text = marker(stamp_ns, NO_WAY, number, Marker.TEXT_VIEW_FACING, _RED)
-        text.pose.orientation, text.scale = no_turn(), Vector3(z=0.2)
+        text = marker(stamp_ns, NO_WAY, number, Marker.TEXT_VIEW_FACING, RED)
+        text.pose.orientation, text.scale = no_turn(), Vector3(z=WORD_M)
         text.text = f"{ids[start]} to {ids[goal]}: {reason}"
         markers.append(text)
     return MarkerArray(markers=markers)
