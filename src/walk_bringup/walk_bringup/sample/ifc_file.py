@@ -183,6 +183,7 @@ class IfcFile:
             )
         self._place_everything()
         self._name_everything()
+        self._order_everything()
         header = self._ifc.header
         header.file_description.description = ("ViewDefinition [DesignTransferView_V1.0]",)
         header.file_name.name = "sample.ifc"  # whatever the file is called, its content is the same
@@ -215,6 +216,15 @@ class IfcFile:
             key = f"{root.is_a()}/{root.Name or ''}"
             count[key] += 1
             root.GlobalId = ifcopenshell.guid.compress(uuid.uuid5(_NAMESPACE, f"{key}/{count[key]}").hex)
+
+    def _order_everything(self) -> None:
+        # The calls that relate elements keep them in sets, whose order follows from where they lie in memory.
+        for kind, related in (
+            ("IfcRelAggregates", "RelatedObjects"),
+            ("IfcRelContainedInSpatialStructure", "RelatedElements"),
+        ):
+            for relation in self._ifc.by_type(kind):
+                setattr(relation, related, sorted(getattr(relation, related), key=lambda entity: int(entity.id())))
 
     def _spatial(self, kind: str, name: str, whole: Entity, parent: Entity, elevation: float) -> Entity:
         entity = ifcopenshell.api.root.create_entity(self._ifc, kind, name=name)
