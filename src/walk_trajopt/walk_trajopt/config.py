@@ -95,12 +95,12 @@ class TimingConfig(Config):
     max_speed_mps: float = param(
         3.0, "speed that is never exceeded, whatever duration is wished", unit="m/s", low=0.05, high=3.0
     )
-    max_acceleration_mps2: float = param(1.3, "largest change of speed", unit="m/s²", low=0.05, high=10.0)
+    max_acceleration_mps2: float = param(1.6, "largest change of speed", unit="m/s²", low=0.05, high=10.0)
     max_lateral_acceleration_mps2: float = param(
-        2.25, "largest acceleration sideways: it slows the walker down in turns", unit="m/s²", low=0.05, high=20.0
+        2.6, "largest acceleration sideways: it slows the walker down in turns", unit="m/s²", low=0.05, high=20.0
     )
     max_jerk_mps3: float = param(
-        16.0, "largest change of acceleration along the path", unit="m/s³", low=0.2, high=200.0
+        32.0, "largest change of acceleration along the path", unit="m/s³", low=0.2, high=200.0
     )
     max_turn_rate_radps: float = param(
         1.57,
