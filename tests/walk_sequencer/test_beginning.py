@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import trimesh
 from scenes import box, building_of, shell
+
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.pipeline import plan_tour
 

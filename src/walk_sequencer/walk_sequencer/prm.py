@@ -18,7 +18,7 @@ util.RNG.setSeed(1)
 def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Returns the edges (E, 2), i < j, of the PRM* roadmap with the given places as milestones, and their costs (E,).
 
-    Each milestone is joined to its nearest ones [KaramanFrazzoli2011] where a straight walk leads there. Edges and
+    Each milestone is joined to its nearest ones (`karaman2011`) where a straight walk leads there. Edges and
     milestones are indices into `places`.
     """
     # OMPL asks about states, not about places. Its states are told apart by their coordinates, so those get an
