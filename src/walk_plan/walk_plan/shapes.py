@@ -24,8 +24,9 @@ def sphere(radius_m: float, rings: int = 8, sides: int = 12) -> Triangles:
     upper = np.stack([first + k, first + sides + k, first + n], axis=2).reshape(-1, 3)
     lower = np.stack([first + n, first + sides + k, first + sides + n], axis=2).reshape(-1, 3)
     north, south, last = len(vertices) - 2, len(vertices) - 1, (rings - 2) * sides
-    caps = [np.column_stack([np.full(sides, north), k, n]), np.column_stack([np.full(sides, south), last + n, last + k])]
-    return radius_m * vertices, np.vstack([upper, lower, *caps])
+    top = np.column_stack([np.full(sides, north), k, n])
+    bottom = np.column_stack([np.full(sides, south), last + n, last + k])
+    return radius_m * vertices, np.vstack([upper, lower, top, bottom])
 
 
 def tube(points: NDArray[np.float64], radius_m: float, sides: int = 6) -> Triangles:

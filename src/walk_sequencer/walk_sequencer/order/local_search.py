@@ -15,7 +15,7 @@ _STARTS = 8
 
 
 def order_local_search(costs: NDArray[np.float64], start: int, end: int, config: SequencerConfig) -> NDArray[np.int64]:
-    """Returns an order that no reversal of a stretch (`croes1958`) and no move of up to three keypoints (`or1976`) betters.
+    """Returns an order that no turned stretch (`croes1958`) and no move of up to three keypoints (`or1976`) betters.
 
     Starts from nearest-neighbour orders, keeps the best, and tries again `config.kicks` times from it with two
     stretches exchanged (the double bridge of (`martin1991`)). Costs need not be symmetric. The open tour is
