@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 import logging
 import re
 import struct
@@ -13,48 +12,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from mesh_files import HIGH, LOW, bounds, box, hall, write
 
 from walk_building.errors import BuildingError, ParameterError
 from walk_building.loaders import load_model
-from walk_building.model import LoadOptions, Model
+from walk_building.model import LoadOptions
 
-# A hall of 8 x 5 x 3 m with thick walls, and a column of 0.5 m that stands 2 m and 1 m from a corner.
-_LOW, _HIGH = np.array([-1.0, 2.0, -0.2]), np.array([7.0, 7.0, 2.8])
 _FORMATS = [".glb", ".gltf", ".obj", ".ply", ".stl", ".dae"]
-_Y_UP_TO_Z_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1]], dtype=float)
-
-
-def box(low: np.ndarray, high: np.ndarray) -> trimesh.Trimesh:
-    return trimesh.creation.box(bounds=np.array([low, high], dtype=float))
-
-
-def hall() -> trimesh.Scene:
-    scene = trimesh.Scene()
-    scene.add_geometry(box(_LOW, [*_HIGH[:2], 0.0]), node_name="floor", geom_name="floor")
-    scene.add_geometry(
-        box([_LOW[0], _LOW[1], 0], [_LOW[0] + 0.2, _HIGH[1], _HIGH[2]]), node_name="wall", geom_name="wall"
-    )
-    scene.add_geometry(box([1, 3, 0], [1.5, 3.5, 2.0]), node_name="column", geom_name="column")
-    return scene
-
-
-def write(scene: trimesh.Scene, path: Path, *, y_up: bool, scale: float = 1.0) -> Path:
-    """Writes a z-up scene in metres, turned to y up and scaled where the format or the test wants it."""
-    scene = scene.copy()
-    turn = np.linalg.inv(_Y_UP_TO_Z_UP) if y_up else np.eye(4)
-    scene.apply_transform(np.diag([scale, scale, scale, 1.0]) @ turn)
-    if path.suffix in (".ply", ".stl", ".dae"):
-        scene.to_mesh().export(path)
-    elif path.suffix == ".gltf":
-        for name, data in trimesh.exchange.gltf.export_gltf(scene).items():
-            (path.parent / (path.name if name == "model.gltf" else name)).write_bytes(data)
-    else:
-        scene.export(path)
-    return path
-
-
-def bounds(model: Model) -> np.ndarray:
-    return np.array([model.vertices.min(axis=0), model.vertices.max(axis=0)])
 
 
 @pytest.mark.parametrize("suffix", _FORMATS)
@@ -62,7 +26,7 @@ def test_known_bounds_come_back_in_metres_and_z_up(tmp_path: Path, suffix: str) 
     # glTF is y up by its specification, COLLADA where it says nothing; the others are taken as z up.
     y_up = suffix in (".glb", ".gltf", ".dae")
     model = load_model(write(hall(), tmp_path / f"hall{suffix}", y_up=y_up))
-    np.testing.assert_allclose(bounds(model), [_LOW, _HIGH], atol=1e-5)
+    np.testing.assert_allclose(bounds(model), [LOW, HIGH], atol=1e-5)
     corners = model.vertices[model.faces].reshape(-1, 3)
     on_column = np.isclose(corners, [1.5, 3.5, 2.0], atol=1e-5).all(axis=1)
     assert on_column.any(), "the column's own corner shows that no axis is mirrored"
@@ -82,7 +46,7 @@ def test_triangles_still_face_outwards(tmp_path: Path, suffix: str) -> None:
 def test_units_and_up_axis_are_taken_from_the_options_where_the_format_is_silent(tmp_path: Path, suffix: str) -> None:
     path = write(hall(), tmp_path / f"hall{suffix}", y_up=True, scale=1 / 0.0254)
     model = load_model(path, LoadOptions(units_m=0.0254, up="y"))
-    np.testing.assert_allclose(bounds(model), [_LOW, _HIGH], atol=1e-5)
+    np.testing.assert_allclose(bounds(model), [LOW, HIGH], atol=1e-5)
     assert model.units_m == 0.0254
 
 
@@ -105,7 +69,7 @@ def test_collada_unit_and_up_axis_are_applied(tmp_path: Path, unit: str, up: str
     path.write_text(text)
     model = load_model(path)
     assert model.units_m == float(unit)
-    np.testing.assert_allclose(bounds(model), [_LOW, _HIGH], atol=1e-4)
+    np.testing.assert_allclose(bounds(model), [LOW, HIGH], atol=1e-4)
 
 
 @pytest.mark.parametrize("suffix", [".glb", ".gltf", ".obj"])
@@ -145,23 +109,12 @@ def test_every_instance_is_placed_mirrored_ones_too(tmp_path: Path, suffix: str)
     assert volume == pytest.approx(12.0)
 
 
-def test_primitives_of_one_gltf_mesh_keep_the_nodes_name(tmp_path: Path) -> None:
-    path = write(hall(), tmp_path / "hall.gltf", y_up=True)
-    tree = json.loads(path.read_text())
-    tree["meshes"][0]["primitives"] += tree["meshes"][1]["primitives"]
-    path.write_text(json.dumps(tree))
-    first, second = load_model(path), load_model(path)
-    assert len(first.parts) == 4
-    assert {part.name for part in first.parts} == {"floor", "wall", "column"}
-    assert first.parts == second.parts
-
-
 def test_triangles_only_lines_and_points_are_left_out_and_said(tmp_path: Path) -> None:
     scene = hall()
     scene.add_geometry(trimesh.PointCloud(np.ones((4, 3))), node_name="points")
     scene.add_geometry(trimesh.load_path(np.array([[[0, 0, 0], [90, 0, 0]]], dtype=float)), node_name="line")
     model = load_model(write(scene, tmp_path / "hall.glb", y_up=True))
-    np.testing.assert_allclose(bounds(model), [_LOW, _HIGH], atol=1e-5)
+    np.testing.assert_allclose(bounds(model), [LOW, HIGH], atol=1e-5)
     assert any(warning.startswith("2 lines or point clouds") for warning in model.warnings)
 
 
@@ -193,7 +146,7 @@ def test_obj_with_polygons_relative_indices_and_latin_comments(tmp_path: Path) -
 def test_ascii_stl_is_read(tmp_path: Path) -> None:
     path = tmp_path / "hall.stl"
     path.write_text(hall().to_mesh().export(file_type="stl_ascii"))
-    np.testing.assert_allclose(bounds(load_model(path)), [_LOW, _HIGH], atol=1e-5)
+    np.testing.assert_allclose(bounds(load_model(path)), [LOW, HIGH], atol=1e-5)
 
 
 def test_triangles_without_area_and_unused_vertices_are_dropped(tmp_path: Path) -> None:
@@ -214,7 +167,7 @@ def test_far_building_is_moved_near_and_the_offset_kept(tmp_path: Path, far: tup
     faces = ["f " + " ".join(str(i + 1) for i in face) for face in hall().to_mesh().faces]
     path.write_text("\n".join(lines + faces))
     model = load_model(path)
-    np.testing.assert_allclose(bounds(model) + model.offset_m, np.array([_LOW, _HIGH]) + far, atol=1e-6)
+    np.testing.assert_allclose(bounds(model) + model.offset_m, np.array([LOW, HIGH]) + far, atol=1e-6)
     assert np.abs(model.vertices).max() < 10.0
     assert np.array_equal(model.offset_m != 0.0, np.array(far) != 0.0)
 
@@ -224,75 +177,6 @@ def test_arrays_are_read_only_and_of_the_promised_types(tmp_path: Path) -> None:
     assert model.vertices.dtype == np.float64 and model.faces.dtype == np.int32
     for array in (model.vertices, model.faces, model.offset_m):
         assert not array.flags.writeable and array.flags.c_contiguous
-
-
-def test_draco_geometry_is_read(tmp_path: Path) -> None:
-    pytest.importorskip("DracoPy", reason="compressed glTF is read where DracoPy is installed")
-    scene = hall()
-    scene.apply_transform(np.linalg.inv(_Y_UP_TO_Z_UP))
-    path = tmp_path / "hall.glb"
-    path.write_bytes(trimesh.exchange.gltf.export_glb(scene, extension_draco=True))
-    assert b"KHR_draco_mesh_compression" in path.read_bytes()
-    np.testing.assert_allclose(bounds(load_model(path)), [_LOW, _HIGH], atol=1e-3)
-
-
-def _gltf(tmp_path: Path, **changes: object) -> Path:
-    path = write(hall(), tmp_path / "hall.gltf", y_up=True)
-    path.write_text(json.dumps(json.loads(path.read_text()) | changes))
-    return path
-
-
-@pytest.mark.parametrize("extension", ["EXT_meshopt_compression", "VENDOR_new_geometry"])
-def test_gltf_that_needs_an_unread_extension_is_refused_by_its_name(tmp_path: Path, extension: str) -> None:
-    path = _gltf(tmp_path, extensionsUsed=[extension], extensionsRequired=[extension])
-    with pytest.raises(BuildingError, match=f"needs {extension}, which is not read; export it again"):
-        load_model(path)
-
-
-def test_draco_without_its_decoder_says_what_to_install(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
-    path = _gltf(tmp_path, extensionsUsed=["KHR_draco_mesh_compression"])
-    with pytest.raises(BuildingError, match="pip install DracoPy"):
-        load_model(path)
-
-
-def test_gltf_that_needs_only_looks_is_read(tmp_path: Path) -> None:
-    path = _gltf(tmp_path, extensionsRequired=["KHR_materials_unlit", "KHR_texture_basisu"])
-    assert len(load_model(path).faces) == 36
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "said"), [("sparse", {"count": 1}, "sparse"), ("normalized", True, "normalized")]
-)
-def test_encodings_that_the_engine_would_misread_are_refused(
-    tmp_path: Path, key: str, value: object, said: str
-) -> None:
-    path = write(hall(), tmp_path / "hall.gltf", y_up=True)
-    tree = json.loads(path.read_text())
-    tree["accessors"][tree["meshes"][0]["primitives"][0]["attributes"]["POSITION"]][key] = value
-    path.write_text(json.dumps(tree))
-    with pytest.raises(BuildingError, match=said):
-        load_model(path)
-
-
-def test_missing_buffer_of_a_gltf_is_named(tmp_path: Path) -> None:
-    path = write(hall(), tmp_path / "hall.gltf", y_up=True)
-    buffer = next(tmp_path.glob("*.bin"))
-    buffer.unlink()
-    with pytest.raises(BuildingError, match=f"'{buffer.name}', which is not there"):
-        load_model(path)
-
-
-def test_gltf_version_1_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(BuildingError, match=r"glTF 1\.0"):
-        load_model(_gltf(tmp_path, asset={"version": "1.0"}))
-
-
-def test_cut_short_glb_is_refused(tmp_path: Path) -> None:
-    path = write(hall(), tmp_path / "hall.glb", y_up=True)
-    path.write_bytes(path.read_bytes()[:-100])
-    with pytest.raises(BuildingError, match="cut short"):
-        load_model(path)
 
 
 def test_hash_names_content_and_options_but_not_the_place(tmp_path: Path) -> None:
