@@ -103,7 +103,8 @@ def shown_storeys(walkthrough: Walkthrough) -> list[int]:
 def _plan(walkthrough: Walkthrough, storey: int) -> Picture:
     here = walkthrough.building.storeys[storey]
     level = here.elevation_m + walkthrough.building.model.offset_m[2]
-    title = f"{here.name} (floor at {level:+.2f} m)"
+    # Adding zero turns a level of -0.00 into +0.00.
+    title = f"{here.name} (floor at {round(level, 2) + 0.0:+.2f} m)"
     return picture(draw_storey(walkthrough, storey), title, f"Plan of {here.name} with the walk")
 
 
