@@ -4,56 +4,25 @@
 
 from __future__ import annotations
 
-import dataclasses
 import sys
-import threading
-from collections import deque
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from std_srvs.srv import Trigger
 
 from walk_building.building import Building
 from walk_building.errors import WalkError
-from walk_ros.conversions import (
-    Change,
-    EditKind,
-    EditResult,
-    KeypointEdit,
-    KeypointMarks,
-    Outcome,
-    Poses,
-    edit_from_msg,
-    edit_result_to_msg,
-    keypoint_marks_to_msgs,
-    keypoints_from_msg,
-)
-from walk_ros.editor import FEEDBACK, KeypointEditor
-from walk_ros.errors import MessageError
-from walk_ros.holds import Holds
+from walk_ros.conversions import Change, EditKind, Outcome, Poses, keypoints_from_msg
+from walk_ros.edit_desk import Asked, EditDesk
+from walk_ros.edit_rules import EditRules
+from walk_ros.keypoint_view import KeypointView
 from walk_ros.node import WalkNode
-from walk_ros.results import NO_POINTS, NO_TURNS, leg_bytes, stand_messages, tour_messages
 from walk_ros.runner import run_node
-from walk_sequencer.authority import HALF_WAY, Authority, Planned
+from walk_sequencer.authority import HALF_WAY, Authority
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal, default_state_dir
 from walk_sequencer.wishes import Wish
-
-_ANSWER_S = 5.0
-"""How long a service waits for what it asked for; then it says that the answer comes later."""
-
-
-@dataclasses.dataclass(slots=True, kw_only=True)
-class Asked:
-    """An edit that waits for its answer."""
-
-    edit: KeypointEdit
-    came_s: float
-    from_editor: bool = False  # whether it came over RViz's protocol
-    answered: threading.Event = dataclasses.field(default_factory=threading.Event)
-    refused: str = ""  # the reason, once it is answered
 
 
 class SequencerNode(WalkNode):
@@ -63,23 +32,14 @@ class SequencerNode(WalkNode):
         super().__init__("sequencer", {"sequencer": SequencerConfig, "editing": EditingConfig})
         self.declare_text("state_dir", str(default_state_dir()), "folder for the journal of edits")
         self._authority: Authority | None = None
-        self._holds = Holds()
-        self._edits: deque[Asked] = deque()
-        self._last_stamp: dict[int, int] = {}
+        self._rules = EditRules()
         self._suggested: Poses | None = None
         self._replan = False
         self._planned_with: SequencerConfig | None = None
-        self._shown: set[int] = set()
-        self._marks: set[tuple[str, int]] = set()
-        self._revision_ns = 0
-        self.offer("keypoints", "keypoint_markers", "pairwise_paths", "tour", "edit_results")
+        self._view = KeypointView(self)
+        self._desk = EditDesk(self, self._view)
         self.take_in("suggested_keypoints", self._store_suggestion)
-        self.take_in("keypoint_edits", self._store_edit)
-        self.take_in(FEEDBACK, lambda msg: self._store_edit(msg, from_editor=True))
-        self._editor = KeypointEditor(self)
         self.create_service(Trigger, "replan", self._answer_replan)
-        self.create_service(Trigger, "undo", lambda _request, response: self._answer_change(Change.UNDO, response))
-        self.create_service(Trigger, "redo", lambda _request, response: self._answer_change(Change.REDO, response))
         self.start()
 
     def work(self, building: Building) -> None:
@@ -98,12 +58,12 @@ class SequencerNode(WalkNode):
             self.diagnostics.latency(self.now_s() - began)
             self._publish(authority)
             self._publish_legs(authority)
-        before = self._revision_ns
-        while self._edits:
+        before, waiting = self._view.revision_ns, self._desk.waiting
+        while waiting:
             # Taken off only once it is answered: a step that is superseded begins with it again.
-            self._answer(authority, self._edits[0], config)
-            self._edits.popleft()
-        if self._revision_ns != before:
+            self._answer(authority, waiting[0], config)
+            waiting.popleft()
+        if self._view.revision_ns != before:
             self._publish_legs(authority)
         if not authority.keypoints.ids:
             self.diagnostics.state("waiting", "no keypoints yet: waiting for suggested_keypoints")
@@ -115,14 +75,11 @@ class SequencerNode(WalkNode):
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes no keypoints and an empty tour."""
-        self.publish_all(tour_messages(None, NO_POINTS, NO_TURNS, (), (), stamp_ns, sorted(self._shown)))
-        self._shown, self._marks = set(), set()
-        self._editor.show((), NO_POINTS, NO_TURNS, (), frozenset(), stamp_ns)
+        self._view.clear(stamp_ns)
         if self._authority is not None:
             # Nothing is shown now, so the next step plans and publishes again, whatever it is about.
             self._authority.planned = None
-        while self._edits:
-            self._reply(self._edits.popleft(), Outcome.REFUSED, "the sequencer has no tour: see /diagnostics")
+        self._desk.refuse_all("the sequencer has no tour: see /diagnostics")
 
     def supersedes(self, groups: frozenset[str]) -> bool:
         """Returns whether a change of these groups makes the running step pointless."""
@@ -133,140 +90,57 @@ class SequencerNode(WalkNode):
         if not self._editing().restore:
             journal.put_aside()
         self._authority = Authority(building, journal)
-        self._holds, self._last_stamp = Holds(), {}
+        self._rules = EditRules()
         return self._authority
 
     def _answer(self, authority: Authority, asked: Asked, config: SequencerConfig) -> None:
-        edit = asked.edit
-        known = authority.keypoints.index(edit.keypoint) >= 0
+        edit, keypoints = asked.edit, authority.keypoints
         if edit.kind is EditKind.HOLD:
-            if known:
-                self._take(edit)
+            if edit.keypoint in keypoints.ids:
+                self._rules.keep(edit, self.now_s())
             return
-        reason = "" if known or edit.keypoint < 0 else f"there is no keypoint {edit.keypoint}"
-        reason = reason or self._too_late(edit) or self._take(edit)
-        if not reason and edit.kind in (EditKind.GRAB, EditKind.DRAG) and edit.keypoint in authority.keypoints.locked:
-            reason = f"keypoint {edit.keypoint} is locked: unlock it first"
+        reason = self._rules.objection(edit, keypoints.ids, keypoints.locked, self.now_s())
         if reason or edit.kind in (EditKind.GRAB, EditKind.DRAG):
-            self._reply(asked, Outcome.REFUSED if reason else Outcome.FOLLOWED, reason)
+            self._desk.reply(asked, Outcome.REFUSED if reason else Outcome.FOLLOWED, reason)
             return
-        self._holds.release(edit.keypoint, edit.client_id)
+        self._rules.release(edit)
         try:
             answer = authority.edit(_wish(asked), config, self._editing())
         except WalkError as error:
             self.get_logger().error(str(error))
-            self._reply(asked, Outcome.REFUSED, str(error))
+            self._desk.reply(asked, Outcome.REFUSED, str(error))
             return
         if answer.reason:
-            self._reply(asked, Outcome.REFUSED, answer.reason)
+            self._desk.reply(asked, Outcome.REFUSED, answer.reason)
             return
-        self._last_stamp[answer.keypoint] = max(edit.stamp_ns, self._last_stamp.get(answer.keypoint, 0))
+        self._rules.accept(edit, answer.keypoint)
         self._publish(authority)
         self.diagnostics.latency(self.now_s() - asked.came_s)
-        self._reply(asked, Outcome.ACCEPTED, "", answer.keypoint, authority.better_order_saves_m(config))
-
-    def _too_late(self, edit: KeypointEdit) -> str:
-        """Returns why an edit is stale, "" if it is not; one without a stamp never is."""
-        last = self._last_stamp.get(edit.keypoint, 0) if edit.keypoint >= 0 else 0
-        late = 0 < edit.stamp_ns < last
-        return f"stale: a later edit of keypoint {edit.keypoint} has been accepted" if late else ""
+        self._desk.reply(asked, Outcome.ACCEPTED, "", answer.keypoint, authority.better_order_saves_m(config))
 
     def _editing(self) -> EditingConfig:
         return self.parameters.get("editing", EditingConfig)
-
-    def _take(self, edit: KeypointEdit) -> str:
-        if edit.keypoint < 0:
-            return ""
-        holder = self._holds.take(edit.keypoint, edit.client_id, self.now_s())
-        return f"keypoint {edit.keypoint} is held by {holder!r}" if holder else ""
 
     def _publish(self, authority: Authority) -> None:
         """Publishes a new revision, all but the legs of all pairs."""
         planned = authority.planned
         assert planned is not None
-        keypoints, tour = planned.keypoints, planned.tour
-        stamp = self._revision_ns = self.revision()
-        gone = sorted(self._shown - set(keypoints.ids))
-        self._shown = set(keypoints.ids)
-        rows = (keypoints.positions, keypoints.quat_xyzw, keypoints.ids, planned.labels)
-        messages = stand_messages(tour, *rows, stamp, gone)
-        eyes = planned.eyes()
-        marks = _marks_of(planned)
-        markers = next(msg for topic, msg in messages if topic == "keypoint_markers")
-        by_id = dict(zip(keypoints.ids, eyes, strict=True))
-        markers.markers += keypoint_marks_to_msgs(marks, by_id, stamp, self._marks)
-        self._marks = marks.names()
-        self.publish_all(messages)
-        self._editor.show(keypoints.ids, eyes, keypoints.quat_xyzw, planned.labels, keypoints.locked, stamp)
-        left = len(tour.unreachable)
+        self._view.show(planned)
+        tour, left = planned.tour, len(planned.tour.unreachable)
         sentence = f"{len(tour.order)} keypoints in {tour.length_m:.1f} m" + (f", {left} unreachable" if left else "")
         self.diagnostics.state("ready", sentence, level="ok" if len(tour.order) else "warn")
-        self.diagnostics.note(solver_status=tour.method, revision_ns=stamp, edited=keypoints.edited)
+        edited = planned.keypoints.edited
+        self.diagnostics.note(solver_status=tour.method, revision_ns=self._view.revision_ns, edited=edited)
 
     def _publish_legs(self, authority: Authority) -> None:
-        """Publishes the legs of all pairs of the last revision."""
-        planned = authority.planned
-        if planned is not None:
-            self.publish_all([leg_bytes(planned.tour, planned.keypoints.ids, self._revision_ns)])
-
-    def _reply(self, asked: Asked, outcome: Outcome, reason: str, keypoint: int = -1, saves_m: float = 0.0) -> None:
-        edit = asked.edit
-        named = keypoint if keypoint >= 0 else edit.keypoint
-        refused = outcome is Outcome.REFUSED
-        self._say(str(named) if named >= 0 else "", edit.client_id, outcome, reason, edit.stamp_ns, saves_m)
-        if refused and edit.kind is not EditKind.DRAG:
-            self._editor.put_back(edit.keypoint)
-        asked.refused = reason if refused else ""
-        asked.answered.set()
-
-    def _say(
-        self, name: str, client_id: str, outcome: Outcome, reason: str, stamp_ns: int = 0, saves_m: float = 0.0
-    ) -> None:
-        result = EditResult(
-            outcome=outcome,
-            keypoint=name,
-            client_id=client_id,
-            reason=reason,
-            revision_ns=self._revision_ns,
-            edit_stamp_ns=stamp_ns,
-            better_order_saves_m=saves_m,
-        )
-        self.publish("edit_results", edit_result_to_msg(result))
+        if authority.planned is not None:
+            self._view.show_legs(authority.planned)
 
     def _store_suggestion(self, msg: Any) -> None:
         suggested = keypoints_from_msg(msg)
         if len(suggested.positions):
             self._suggested = suggested
             self.worker.wake()
-
-    def _store_edit(self, msg: Any, from_editor: bool = False) -> None:
-        try:
-            edit = edit_from_msg(msg)
-        except MessageError as error:
-            self._say(msg.marker_name, msg.client_id, Outcome.REFUSED, error.reason)
-            raise
-        self._edits.append(Asked(edit=edit, came_s=self.now_s(), from_editor=from_editor))
-        self.worker.wake()
-
-    def _answer_change(self, change: Change, response: Trigger.Response) -> Trigger.Response:
-        """Has a change done for a service and waits for it: what it confirms is in the journal."""
-        stamp = self.get_clock().now().nanoseconds
-        edit = KeypointEdit(
-            kind=EditKind.CHANGE,
-            keypoint=-1,
-            client_id="service",
-            stamp_ns=stamp,
-            position=NO_POINTS,
-            quat_xyzw=NO_TURNS,
-            change=change,
-        )
-        asked = Asked(edit=edit, came_s=self.now_s())
-        self._edits.append(asked)
-        self.worker.wake()
-        done = asked.answered.wait(_ANSWER_S)
-        response.success = done and not asked.refused
-        response.message = asked.refused if done else "not done yet: edit_results will tell"
-        return response
 
     def _answer_replan(self, _request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         authority = self._authority
@@ -290,18 +164,6 @@ def _wish(asked: Asked) -> Wish:
         quat_xyzw=edit.quat_xyzw,
         argument=argument,
         target=edit.target,
-    )
-
-
-def _marks_of(planned: Planned) -> KeypointMarks:
-    keypoints = planned.keypoints
-    rows = list(enumerate(keypoints.ids))
-    return KeypointMarks(
-        look_at={i: keypoints.look_at[k] for k, i in rows if np.isfinite(keypoints.look_at[k]).all()},
-        dwell_s={i: float(keypoints.dwell_s[k]) for k, i in rows if np.isfinite(keypoints.dwell_s[k])},
-        locked=keypoints.locked,
-        start=keypoints.start,
-        end=keypoints.end,
     )
 
 
