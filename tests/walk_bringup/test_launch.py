@@ -52,3 +52,19 @@ def test_rviz_shows_topics_of_the_table() -> None:
     for topic in shown:
         durability = table[topic["Value"]].durability.name.replace("_", " ").title()
         assert topic["Durability Policy"] == durability, topic["Value"]
+
+
+def test_rviz_edits_keypoints_under_the_name_of_the_editor() -> None:
+    from walk_ros.editor import FEEDBACK, SERVICE, UPDATE
+    from walk_ros.topics import absolute_name
+
+    layout = yaml.safe_load((SHARE / "rviz" / "walk.rviz").read_text(encoding="utf-8"))
+    displays = layout["Visualization Manager"]["Displays"]
+    (editor,) = [d for d in displays if d["Class"] == "rviz_default_plugins/InteractiveMarkers"]
+    # RViz adds the names of the protocol itself.
+    names = [
+        f"{editor['Interactive Markers Namespace']}/{n}" for n in ("update", "feedback", "get_interactive_markers")
+    ]
+    assert names == [absolute_name(name) for name in (UPDATE, FEEDBACK, SERVICE)]
+    assert editor["Enabled"]
+    assert "rviz_default_plugins/Interact" in [tool["Class"] for tool in layout["Visualization Manager"]["Tools"]]
