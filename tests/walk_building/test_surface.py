@@ -176,3 +176,17 @@ def test_the_inside_of_a_block_is_no_room_but_that_of_a_single_sheet_is() -> Non
     assert building.surface.places[building.reachable, 1].max() < 4
     sheet = building_of([trimesh.creation.box(bounds=[(0, 0, 0), (6, 4, 3)])])
     assert len(sheet.rooms) == 1 and sheet.rooms[0].reachable
+
+
+def test_a_house_read_in_the_wrong_unit_is_refused_before_it_takes_all_memory() -> None:
+    house = [part.apply_scale(100.0) for part in two_rooms()]
+    with pytest.raises(BuildingError, match=r"too large to plan in at once: 860 x 440 x 340 m.*--units"):
+        building_of(house)
+
+
+def test_a_room_that_a_step_parts_is_listed_with_what_is_not_reached() -> None:
+    # Two thirds of the hall's floor are 0.6 m higher: no walker gets up there, and no wall parts them.
+    building = building_of([*shell(12, 4, height=3.4), box((4, 0, 0), (12, 4, 0.6))])
+    heights = sorted((round(float(room.centre[2]), 1), room.reachable) for room in building.rooms)
+    assert heights == [(0.0, False), (0.6, True)]
+    assert sum(room.area_m2 for room in building.rooms) > 36

@@ -54,12 +54,14 @@ class Replayer(RawPublisher):
 
     def _play(self) -> None:
         """Publishes the bag once."""
-        last_ns = None
+        last_ns, count = None, 0
         for message in read_bag(self._options.bag):
             if last_ns is not None and self._ending.wait((message.stamp_ns - last_ns) / 1e9 / self._options.rate):
                 return
             last_ns = message.stamp_ns
             self.send(message.topic.name, message.data)
+            count += 1
+        self.get_logger().info(f"published {count} messages of {self._options.bag}")
 
 
 def _as_topic(topic: BagTopic) -> Topic:
@@ -94,7 +96,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         topics = read_topics(options.bag)
     except BagError as error:
-        sys.stderr.write(f"{error}\n")
+        sys.stderr.write(f"walk: {error}\n")
         return 2
     return run_node(lambda: Replayer(options, topics), argv)
 

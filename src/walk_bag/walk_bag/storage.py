@@ -112,13 +112,19 @@ class BagWriter:
             shutil.rmtree(self._folder)
 
 
+def _existing(path: Path | str) -> Path:
+    if not Path(path).exists():
+        raise BagError(path, "there is no such file or folder")
+    return Path(path)
+
+
 def read_bag(path: Path | str) -> Iterator[BagMessage]:
     """Yields the messages of a bag, a directory or a bare `.mcap`, by time.
 
     Raises:
         BagError: There is no such bag, or it is damaged.
     """
-    path = Path(path)
+    path = _existing(path)
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
             topics = {c.id: _topic(c) for c in reader.connections}
@@ -130,7 +136,7 @@ def read_bag(path: Path | str) -> Iterator[BagMessage]:
 
 def read_topics(path: Path | str) -> tuple[BagTopic, ...]:
     """Returns the topics of a bag; raises BagError as `read_bag` does."""
-    path = Path(path)
+    path = _existing(path)
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
             return tuple(_topic(c) for c in reader.connections)

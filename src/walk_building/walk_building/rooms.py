@@ -95,6 +95,8 @@ def find_rooms(
     # What nobody reaches, if it is small or beside declared spaces, is not looked into: each part is one entry.
     rest = left & (label < 0)
     label[rest] = label.max() + 1 + np.unique(component[rest], return_inverse=True)[1]
+    # A stair that breaks leaves its room in two: the piece that is reached must not hide the one that is not.
+    label = np.where(label >= 0, 2 * label + reachable, -1).astype(np.int32)
     for found in _found_rooms(label, large, floor):
         room[found.places] = len(rooms)
         rooms.append(found)

@@ -85,7 +85,7 @@ def build_roadmap(
     known = np.isin(borders[:, 0] * len(milestones) + borders[:, 1], edges[:, 0] * len(milestones) + edges[:, 1])
     borders, border_costs = borders[~known], border_costs[~known]
     joined = connected_components(_symmetric(edges, costs, len(milestones)), directed=False)[0] - 1
-    _log.info(
+    _log.debug(
         "roadmap: %d milestones, %d straight edges, %d along the floor, which join %d parts",
         *(len(milestones), len(edges), len(borders), joined),
     )

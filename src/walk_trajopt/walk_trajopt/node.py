@@ -140,6 +140,7 @@ class TrajoptNode(WalkNode):
         path = optimiser.check()
         self._optimiser, self._settled = optimiser, optimiser.state
         self._publish(path, timing)
+        self.get_logger().info(f"a walk past {len(plan.ids)} keypoints is published: {path.length_m:.0f} m")
         self.diagnostics.note(solve_ms=f"{1e3 * (self.now_s() - began):.1f}")
 
     def _follow_edits(self, building: Building, plan: Plan, timing: TimingConfig) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -97,6 +98,8 @@ def plan(building: Path, out: Path, quiet: bool, **values: Any) -> int:
     names = {_variable(option): option.name for option in plan_options()}
     given = {names[variable]: value for variable, value in values.items() if value is not None}
     config = plan_config(given)
+    # Told to end, it leaves as at Ctrl-C: nothing half-written stays behind.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     started = time.monotonic()
     with _shown_progress(quiet) as progress:
         walkthrough = plan_walkthrough(building, out, config, progress)
@@ -114,7 +117,7 @@ def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterat
     minutes, rest = divmod(round(quality.duration_s), 60)
     yield f"walk       {quality.length_m:.1f} m in {minutes} min {rest} s past {len(walkthrough.keypoints)} keypoints"
     others = f"; {beyond} cannot be reached, the report says why" if beyond else ""
-    yield f"rooms      {entered} of {reachable} reachable entered{others}"
+    yield f"rooms      {entered} of {reachable + beyond} entered{others}"
     yield f"collisions {quality.colliding_segments} of {quality.segments} segments"
     for warning in walkthrough.warnings:
         yield f"note       {warning}"

@@ -73,7 +73,10 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
 def _assumptions(raw: RawModel, options: LoadOptions, part_filter: PartFilter) -> list[str]:
     warnings = []
     if raw.units_m is None and not options.units_m:
-        warnings.append("The file does not say its unit; metres are assumed (change it with --units).")
+        warnings.append(
+            "The file does not say its unit; metres are assumed (for others --units: 0.01 centimetres, 0.001 "
+            "millimetres, 0.0254 inches, 0.3048 feet)."
+        )
     if part_filter.pattern and not part_filter.dropped:
         warnings.append(f"The pattern to ignore, {part_filter.pattern!r}, found no part.")
     return warnings
