@@ -39,6 +39,7 @@ class Replayer(RawPublisher):
     def _run(self) -> None:
         try:
             self._ending.wait(self._options.delay)
+            self.get_logger().info(f"replaying {self._options.bag}; Ctrl-C ends it")
             while not self._ending.is_set():
                 self._play()
                 if not self._options.loop:
