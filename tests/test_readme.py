@@ -51,8 +51,10 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("command", commands())
 def test_command_of_the_readme_runs(command: str, folder: Path) -> None:
     wanted = f"{command} --help" if command in OURSELVES else command
+    # The journal of edits goes to the folder, not to the home of whoever runs the tests.
+    environment = os.environ | {"XDG_STATE_HOME": str(folder / "state")}
     process = subprocess.Popen(
-        shlex.split(wanted), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=dict(os.environ)
+        shlex.split(wanted), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment
     )
     try:
         output = _output(process, UNTIL.get(command))
