@@ -34,6 +34,7 @@ class Graph:
         env = dict(os.environ, ROS_DOMAIN_ID=str(domain or self.domain), ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST")
         env.setdefault("AMENT_PREFIX_PATH", sys.prefix)
         env["XDG_STATE_HOME"] = str(self.folder / "state")
+        env["XDG_CACHE_HOME"] = str(self.folder / "cache")
         env["PYTHONPATH"] = os.pathsep.join(p for p in sys.path if p)
         return env
 

@@ -10,13 +10,13 @@ import json
 import logging
 import os
 import tempfile
+import time
 import zlib
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_building.building import Building
 from walk_importance.config import ImportanceConfig
 from walk_importance.grid import VoxelGrid
 from walk_importance.importance_map import ImportanceMap, weigh
@@ -26,11 +26,30 @@ _FORMAT = 1  # raise when the method or the file changes, so that older files ar
 _WEIGHTS = ("weight_obstacle", "weight_distance", "weight_visibility")
 _MAPS = ("obstacle", "distance", "visibility")
 
+MAX_FILES = 20
+MAX_BYTES = 2_000_000_000
+"""What a cache folder holds at most: 20 maps of the default size are 360 MB, two of the largest size 1.5 GB."""
+_STALE_S = 3600.0  # an unfinished file this old was left by a process that was killed
 
-def cache_file(folder: Path, building: Building, config: ImportanceConfig) -> Path:
+
+def default_cache_dir() -> Path:
+    """Returns the folder that XDG gives the maps: `$XDG_CACHE_HOME/walk`, `~/.cache/walk` by default."""
+    home = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return (home if home.is_absolute() else Path.home() / ".cache") / "walk"
+
+
+def same_maps(a: ImportanceConfig, b: ImportanceConfig) -> bool:
+    """Returns whether two configs differ in their weights at most, so that the three maps are the same."""
+    return _but_weights(a) == _but_weights(b)
+
+
+def _but_weights(config: ImportanceConfig) -> dict[str, object]:
+    return {k: v for k, v in dataclasses.asdict(config).items() if k not in _WEIGHTS}
+
+
+def cache_file(folder: Path, building_hash: str, config: ImportanceConfig) -> Path:
     """Returns where the maps of a building are kept; the weights do not matter, they are applied anew."""
-    settings = {k: v for k, v in dataclasses.asdict(config).items() if k not in _WEIGHTS}
-    text = json.dumps([_FORMAT, building.hash, settings], sort_keys=True)
+    text = json.dumps([_FORMAT, building_hash, _but_weights(config)], sort_keys=True)
     return folder / f"importance-{hashlib.sha256(text.encode()).hexdigest()[:32]}.bin"
 
 
@@ -46,11 +65,37 @@ def save_map(file: Path, importance_map: ImportanceMap) -> None:
         "notes": importance_map.notes,
         "crc32": zlib.crc32(body),
     }
+    write_whole(file, json.dumps(head).encode() + b"\n", body)
+
+
+def write_whole(file: Path, *pieces: bytes) -> None:
+    """Writes a file that appears whole or not at all; raises OSError where it cannot."""
     file.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=file.parent, delete=False) as out:
-        out.write(json.dumps(head).encode() + b"\n")
-        out.write(body)
-    os.replace(out.name, file)  # noqa: PTH105 - Path.replace would need the name wrapped again
+    with tempfile.NamedTemporaryFile(dir=file.parent, suffix=".part", delete=False) as out:
+        part = Path(out.name)
+        try:
+            for piece in pieces:
+                out.write(piece)
+            out.flush()
+            part.replace(file)
+        except OSError:
+            part.unlink(missing_ok=True)
+            raise
+
+
+def trim(folder: Path, max_files: int = MAX_FILES, max_bytes: int = MAX_BYTES) -> None:
+    """Deletes what was used longest ago, until no more than this many files and bytes of each kind are left."""
+    for pattern in ("importance-*.bin", "start-*.json"):
+        # Another node may delete the same files at the same time.
+        found = sorted(((f.stat(), f) for f in folder.glob(pattern)), key=lambda s: -s[0].st_mtime_ns)
+        held = 0
+        for count, (status, file) in enumerate(found, start=1):
+            held += status.st_size
+            if count > max_files or held > max_bytes:
+                file.unlink(missing_ok=True)
+    for part in folder.glob("*.part"):
+        if time.time() - part.stat().st_mtime > _STALE_S:
+            part.unlink(missing_ok=True)
 
 
 def load_map(file: Path, config: ImportanceConfig) -> ImportanceMap | None:

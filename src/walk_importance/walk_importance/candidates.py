@@ -63,6 +63,12 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
     )
 
 
+def rescored(candidates: Candidates, importance_map: ImportanceMap) -> Candidates:
+    """Returns the same candidates scored by a map of other weights over the same grid."""
+    score = importance_map.at(candidates.eyes).astype(np.float64)
+    return dataclasses.replace(candidates, score=score)
+
+
 def _roomy(clearance_m: NDArray[np.float64], room: NDArray[np.int32]) -> NDArray[np.bool_]:
     """Leaves out the nooks between furniture: places with less around than a room has to offer elsewhere."""
     widest = np.zeros(room.max() + 2)

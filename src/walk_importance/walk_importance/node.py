@@ -4,82 +4,170 @@
 
 from __future__ import annotations
 
+import dataclasses
 import sys
+from collections.abc import Sequence
+from pathlib import Path
 
 from walk_building.building import Building
 from walk_building.errors import WalkError
+from walk_building.model import LoadOptions
+from walk_building.walker import Walker
+from walk_importance.cache import default_cache_dir, same_maps
+from walk_importance.candidates import Candidates, find_candidates, rescored
 from walk_importance.config import ImportanceConfig, KeypointConfig
-from walk_importance.importance_map import ImportanceMap
+from walk_importance.importance_map import ImportanceMap, reweigh
 from walk_importance.keypoints import suggest_keypoints
 from walk_importance.pipeline import refine_importance
+from walk_importance.store import MapStore, Start
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS, map_messages, suggestion_messages
 from walk_ros.runner import run_node
 
 
 class ImportanceNode(WalkNode):
-    """Publishes the importance map, a grid of it per storey, and suggested keypoints."""
+    """Publishes the importance map, a grid of it per storey, and suggested keypoints.
+
+    Other weights need no new maps, another cone neither maps nor weights; what does not depend on a change is not
+    published again.
+    """
 
     def __init__(self) -> None:
         super().__init__("importance", {"importance": ImportanceConfig, "keypoints": KeypointConfig})
+        self.declare_text("cache_dir", str(default_cache_dir()), "folder of computed maps; empty keeps none")
         self._map: ImportanceMap | None = None
+        self._candidates: Candidates | None = None
         self._map_for: ImportanceConfig | None = None
         self._suggested_for: KeypointConfig | None = None
+        self._early: Start | None = None
+        self._storeys = 0
         self.offer("importance_map", "importance_map/storeys", "suggested_keypoints")
         self.start()
 
+    def before_loading(self, source: Path, options: LoadOptions, walker: Walker) -> None:
+        """Publishes what an earlier start with this file came to, if that is kept."""
+        began = self.now_s()
+        config, suggest = self._configs()
+        early = self._early = self._store().start(source, options, walker, config, suggest)
+        if early is None:
+            return
+        self._map, self._map_for = early.importance_map, config
+        self._publish_map(early.floors_z, walker.eye_height_m)
+        if early.positions is not None and early.quat_xyzw is not None:
+            self._suggested_for = suggest
+            self.publish_all(suggestion_messages(early.positions, early.quat_xyzw, self.revision()))
+        self.get_logger().info(f"the map of an earlier start is published, {1e3 * (self.now_s() - began):.0f} ms")
+
     def work(self, building: Building) -> None:
         """Computes the map if what it depends on has changed, then the keypoints if what they depend on has."""
-        config = self.parameters.get("importance", ImportanceConfig)
+        if self._early is not None and self._early.building_hash != building.hash:
+            # A file that the building file refers to has changed.
+            self.forget()
+        self._early = None
+        config, suggest = self._configs()
         if config != self._map_for:
-            self.diagnostics.state("computing", "computing the importance map")
-            self._suggested_for = None
-            began = self.now_s()
-            self._map = self._map_for = None
-            try:
-                self._refine(building, config)
-            except WalkError:
-                # The same settings would fail again; they are tried again when they change.
-                self._map_for = config
-                raise
-            self._map_for = config
-            self.diagnostics.latency(self.now_s() - began)
-        suggest = self.parameters.get("keypoints", KeypointConfig)
-        if self._map is not None and suggest != self._suggested_for:
+            self._update_map(building, config)
+        if self._map is None:
+            return
+        if self._candidates is None:
+            self._candidates = find_candidates(building, self._map)
+        if suggest != self._suggested_for:
             self._suggested_for = suggest
             self._suggest(building, self._map, suggest)
 
     def forget(self) -> None:
         """Drops the map of another building."""
-        self._map = self._map_for = self._suggested_for = None
+        self._map = self._candidates = self._map_for = self._suggested_for = self._early = None
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes an empty map, unless there is one, and no keypoints."""
+        if self._early is not None:
+            # What an earlier start left is of no building that can be loaded.
+            self.forget()
         if self._map is None:
+            self._offer_storeys(1)
             self.publish_all(map_messages(None, (), 0.0, stamp_ns))
         self.publish_all(suggestion_messages(NO_POINTS, NO_TURNS, stamp_ns))
 
     def supersedes(self, groups: frozenset[str]) -> bool:
         """Returns whether a change of these groups makes the running step pointless."""
-        return "importance" in groups
+        if self.building is None or "importance" not in groups:
+            return False  # loading goes on, whatever the map is to be like
+        running = self._map_for
+        return running is None or not same_maps(running, self._configs()[0])
 
-    def _refine(self, building: Building, config: ImportanceConfig) -> None:
-        """Publishes every map as it comes, each better than the one before."""
+    def _configs(self) -> tuple[ImportanceConfig, KeypointConfig]:
+        # Suggestions do not depend on how far a keypoint asked for is moved.
+        suggest = dataclasses.replace(self.parameters.get("keypoints", KeypointConfig), snap_radius_m=1.0)
+        return self.parameters.get("importance", ImportanceConfig), suggest
+
+    def _store(self) -> MapStore:
+        folder = str(self.get_parameter("cache_dir").value)
+        return MapStore(Path(folder).expanduser() if folder else None)
+
+    def _update_map(self, building: Building, config: ImportanceConfig) -> None:
+        """Publishes the map anew: weighed, from the disk, or computed."""
+        self._suggested_for = None
         floors_z = [storey.elevation_m for storey in building.storeys]
-        # Latched keeps the last few messages of a topic: as many as there are storeys, or some would be lost.
-        self.offer("importance_map/storeys", depth=max(len(floors_z), 1))
+        began = self.now_s()
+        if self._map is not None and self._map_for is not None and same_maps(config, self._map_for):
+            self._map, self._map_for = reweigh(self._map, config), config
+            if self._candidates is not None:
+                self._candidates = rescored(self._candidates, self._map)
+            self._publish_map(floors_z, building.walker.eye_height_m)
+        else:
+            self._map = self._candidates = None
+            # Set before it is computed: settings that fail would fail again, and are tried again when they change.
+            self._map_for = config
+            self._compute(building, config, floors_z)
+        self.diagnostics.latency(self.now_s() - began)
+
+    def _compute(self, building: Building, config: ImportanceConfig, floors_z: Sequence[float]) -> None:
+        """Publishes every map as it comes, each better than the one before; a kept one is the last."""
+        kept = self._store().maps(building.hash, config)
+        if kept is not None:
+            self._map = kept
+            self._publish_map(floors_z, building.walker.eye_height_m)
+            return
+        self.diagnostics.state("computing", "computing the importance map")
         latest: ImportanceMap | None = None
-        for latest in refine_importance(building, config, self.worker.progress):
-            self.publish_all(map_messages(latest, floors_z, building.walker.eye_height_m, self.revision()))
-            self.diagnostics.note(solver_status=f"visibility to {latest.visibility_stderr:.4f} (standard error)")
-        self._map = latest
+        try:
+            for found in refine_importance(building, config, self.worker.progress):
+                now = self._configs()[0]
+                # Other weights do not end the work; they are applied from the next map on.
+                self._map_for = now if same_maps(now, config) else config
+                latest = reweigh(found, self._map_for)
+                self._publish(latest, floors_z, building.walker.eye_height_m)
+        except WalkError:
+            raise
+        except BaseException:
+            self._map_for = None  # superseded: begun again even if the settings come back
+            raise
         if latest is not None:
+            self._map = latest
+            self._store().keep_maps(building.hash, config, latest)
             for note in latest.notes:
                 self.get_logger().warning(note)
 
+    def _publish_map(self, floors_z: Sequence[float], eye_height_m: float) -> None:
+        if self._map is not None:
+            self._publish(self._map, floors_z, eye_height_m)
+
+    def _publish(self, importance_map: ImportanceMap, floors_z: Sequence[float], eye_height_m: float) -> None:
+        """Publishes a map and its storeys."""
+        self._offer_storeys(max(len(floors_z), 1))
+        self.publish_all(map_messages(importance_map, floors_z, eye_height_m, self.revision()))
+        self.diagnostics.note(solver_status=f"visibility to {importance_map.visibility_stderr:.4f} (standard error)")
+
+    def _offer_storeys(self, count: int) -> None:
+        # Latched keeps the last few messages of a topic: as many as there are storeys, or some would be lost.
+        if count != self._storeys:
+            self._storeys = count
+            self.offer("importance_map/storeys", depth=count)
+
     def _suggest(self, building: Building, importance_map: ImportanceMap, config: KeypointConfig) -> None:
         began = self.now_s()
-        suggestion = suggest_keypoints(building, importance_map, config)
+        suggestion = suggest_keypoints(building, importance_map, config, self._candidates)
         stamp_ns = self.revision()
         self.publish_all(suggestion_messages(suggestion.positions, suggestion.quat_xyzw, stamp_ns))
         self.diagnostics.latency(self.now_s() - began)
@@ -88,6 +176,10 @@ class ImportanceNode(WalkNode):
         sentence = f"{len(suggestion.positions)} keypoints suggested, {len(suggestion.skipped)} rooms skipped"
         self.diagnostics.state("ready", sentence)
         self.diagnostics.note(revision_ns=stamp_ns)
+        options = self.parameters.get("load", LoadOptions)
+        importance = self._map_for
+        if importance is not None:
+            self._store().keep_start(building, options, importance, config, suggestion)
 
 
 def main() -> int:

@@ -84,6 +84,9 @@ class WalkNode(Node):
         """Drops what was computed for another building, in the worker's thread."""
         raise NotImplementedError
 
+    def before_loading(self, source: Path, options: LoadOptions, walker: Walker) -> None:
+        """May publish what is kept from an earlier start, in the worker's thread; the building is not loaded yet."""
+
     def fail(self, stamp_ns: int) -> None:
         """Publishes empty, stamped messages, in the worker's thread."""
         raise NotImplementedError
@@ -179,7 +182,9 @@ class WalkNode(Node):
         self.diagnostics.building(path, "")
         began = time.perf_counter()
         try:
-            self.building = load_building(path or _sample(), wanted[1], wanted[2], self.worker.progress)
+            source = Path(path) if path else _sample()
+            self.before_loading(source, wanted[1], wanted[2])
+            self.building = load_building(source, wanted[1], wanted[2], self.worker.progress)
         except Superseded:
             raise
         except Exception:

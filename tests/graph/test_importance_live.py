@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The importance node: its parameters change, and it starts again; the tests of this file follow each other."""
+
+import numpy as np
+import pytest
+from graph.processes import Observer
+
+from walk_ros import conversions as c
+
+pytestmark = pytest.mark.ros
+
+MAP_TOPICS = ["importance_map", "importance_map/storeys"]
+SUGGESTED = "suggested_keypoints"
+
+
+@pytest.fixture(scope="module")
+def running(graph, observer):
+    graph.start("importance")
+    observer.wait(lambda: observer.state("importance").get("state") == "ready", "suggestions")
+    return graph
+
+
+def counts(observer, *topics):
+    return [len(observer.heard[topic]) for topic in topics]
+
+
+def change(observer, name, value):
+    """Sets a parameter and returns the suggestion that answers it."""
+    before = len(observer.heard[SUGGESTED])
+    result = observer.set_parameter("importance", name, value)
+    assert result.successful, result.reason
+    return c.keypoints_from_msg(observer.after(SUGGESTED, before, f"suggestions for {name} = {value}"))
+
+
+def test_another_number_of_keypoints_leaves_the_maps_alone(running, observer):
+    before = counts(observer, *MAP_TOPICS)
+    assert len(change(observer, "keypoints.count", 5).positions) == 5
+    assert len(change(observer, "keypoints.count", 0).positions) >= 3
+    assert counts(observer, *MAP_TOPICS) == before
+
+
+def test_another_cone_leaves_the_maps_alone(running, observer):
+    change(observer, "keypoints.count", 8)
+    before = counts(observer, *MAP_TOPICS)
+    change(observer, "keypoints.cone_radius_m", 2.0)
+    assert counts(observer, *MAP_TOPICS) == before
+    change(observer, "keypoints.count", 0)
+
+
+def test_other_weights_weigh_the_same_maps(running, observer):
+    before = c.importance_map_from_msg(observer.last("importance_map"))
+    maps = counts(observer, *MAP_TOPICS)
+    change(observer, "importance.weight_visibility", 4.0)
+    after = c.importance_map_from_msg(observer.last("importance_map"))
+    # One map, not one at every refinement.
+    assert counts(observer, *MAP_TOPICS) == [maps[0] + 1, maps[1] + 1]
+    for name in ("obstacle", "distance", "visibility"):
+        np.testing.assert_array_equal(getattr(after, name), getattr(before, name))
+    np.testing.assert_allclose(after.importance, before.importance + 3.0 * before.visibility, atol=1e-4)
+    change(observer, "importance.weight_visibility", 1.0)
+
+
+def test_another_voxel_size_computes_the_maps_anew_and_the_old_size_comes_from_disk(running, observer):
+    old = c.importance_map_from_msg(observer.last("importance_map"))
+    change(observer, "importance.voxel_size_m", 0.4)
+    assert c.importance_map_from_msg(observer.last("importance_map")).grid.voxel_size_m == pytest.approx(0.4)
+    maps = counts(observer, "importance_map")[0]
+    change(observer, "importance.voxel_size_m", 0.25)
+    assert counts(observer, "importance_map")[0] == maps + 1
+    again = c.importance_map_from_msg(observer.last("importance_map"))
+    np.testing.assert_array_equal(again.visibility, old.visibility)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("importance.weight_distance", -1.0, "weight_distance"),
+        ("importance.weight_visibility", float("nan"), "weight_visibility"),
+        ("keypoints.cone_radius_m", 0.0, "cone_radius_m"),
+        ("importance.voxel_size_m", 1.2, "voxel_size_m"),
+    ],
+)
+def test_a_bad_value_is_refused_by_name_and_changes_nothing(running, observer, name, value, said):
+    before = counts(observer, *MAP_TOPICS, SUGGESTED)
+    result = observer.set_parameter("importance", name, value)
+    assert not result.successful
+    assert said in result.reason
+    assert counts(observer, *MAP_TOPICS, SUGGESTED) == before
+    assert running.processes["importance"].poll() is None
+
+
+def test_more_keypoints_than_fit_are_an_error_that_says_how_many_do(running, observer):
+    maps = counts(observer, *MAP_TOPICS)
+    assert len(change(observer, "keypoints.count", 1000).positions) == 0
+    observer.wait(lambda: observer.state("importance").get("state") == "failed", "the error")
+    assert "ask for at most" in observer.state("importance")["message"]
+    assert counts(observer, *MAP_TOPICS) == maps
+    assert len(change(observer, "keypoints.count", 0).positions) >= 3
+
+
+def test_a_later_start_publishes_before_the_building_is_loaded(running, observer, graph):
+    observer.wait(lambda: list((graph.folder / "cache" / "walk").glob("start-*.json")), "the start to be kept")
+    last = {topic: observer.last(topic) for topic in (*MAP_TOPICS, SUGGESTED)}
+    graph.interrupt("importance")
+    before = counts(observer, "importance_map", SUGGESTED)
+    graph.start("importance")
+    observer.after(SUGGESTED, before[1], "suggestions of the later start")
+    observer.wait(lambda: "loaded" in graph.log("importance").rpartition("earlier start")[2], "the building")
+    observer.wait(lambda: observer.state("importance").get("state") == "ready", "it to be ready")
+    assert counts(observer, "importance_map", SUGGESTED) == [n + 1 for n in before]
+    for topic, msg in last.items():
+        new = observer.last(topic)
+        assert new.header.stamp != msg.header.stamp
+        field = "poses" if topic == SUGGESTED else "data"
+        assert getattr(new, field) == getattr(msg, field)
+
+
+@pytest.mark.parametrize("damage", ["flipped", "cut"])
+def test_damaged_files_are_seen_and_written_anew(running, observer, graph, damage):
+    graph.interrupt("importance")
+    folder = graph.folder / "cache" / "walk"
+    files = [*folder.glob("importance-*.bin"), *folder.glob("start-*.json")]
+    whole = {file: file.read_bytes() for file in files}
+    for file, raw in whole.items():
+        middle = len(raw) // 2
+        file.write_bytes(
+            raw[:middle] if damage == "cut" else raw[:middle] + bytes([raw[middle] ^ 1]) + raw[middle + 1 :]
+        )
+    before = len(observer.heard[SUGGESTED])
+    graph.start("importance")
+    observer.after(SUGGESTED, before, "suggestions")
+    assert "is damaged" in graph.log("importance")
+    start = next(file for file in files if file.suffix == ".json")
+    observer.wait(lambda: start.read_bytes() == whole[start], "the start to be written anew")
+    assert any(file.read_bytes() == raw for file, raw in whole.items() if file.suffix == ".bin")
+
+
+def test_without_a_folder_nothing_is_kept_and_one_that_cannot_be_written_is_said(running, graph, rooms, other_domain):
+    blocked = graph.folder / "a file"
+    blocked.write_text("no folder")
+    observer = Observer(other_domain)
+    process = graph.run(
+        "elsewhere", "walk_importance.node", "--ros-args", "-p", f"building:={rooms}", "-p", f"cache_dir:={blocked}",
+        domain=other_domain,
+    )  # fmt: skip
+    observer.wait(lambda: observer.last(SUGGESTED), "suggestions")
+    observer.wait(lambda: "cache_dir" in graph.log("elsewhere"), "the warning")
+    assert process.poll() is None
+    observer.close()
