@@ -21,7 +21,7 @@ from walk_importance.keypoints import suggest_keypoints
 from walk_importance.pipeline import refine_importance
 from walk_importance.store import MapStore, Start
 from walk_ros.node import WalkNode
-from walk_ros.results import NO_POINTS, NO_TURNS, map_messages, suggestion_messages
+from walk_ros.results import NO_POINTS, NO_TURNS, map_bytes, map_messages, suggestion_messages
 from walk_ros.runner import run_node
 
 
@@ -156,7 +156,7 @@ class ImportanceNode(WalkNode):
     def _publish(self, importance_map: ImportanceMap, floors_z: Sequence[float], eye_height_m: float) -> None:
         """Publishes a map and its storeys."""
         self._offer_storeys(max(len(floors_z), 1))
-        self.publish_all(map_messages(importance_map, floors_z, eye_height_m, self.revision()))
+        self.publish_all(map_bytes(importance_map, floors_z, eye_height_m, self.revision()))
         self.diagnostics.note(solver_status=f"visibility to {importance_map.visibility_stderr:.4f} (standard error)")
 
     def _offer_storeys(self, count: int) -> None:
