@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from walk_building.geometry import as_points
 from walk_building.raster import Columns
-from walk_building.surface_kernels import Grid, floor_planes, segment_walkable
+from walk_building.surface_kernels import Grid, edge_lengths, floor_planes, segment_walkable
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -50,8 +50,7 @@ class WalkableSurface:
     @cached_property
     def edge_length_m(self) -> NDArray[np.float64]:
         """(E,): straight distance to each neighbour [m]."""
-        source = np.repeat(np.arange(len(self.places)), np.diff(self.indptr))
-        return np.linalg.norm(self.places[source] - self.places[self.neighbours], axis=1)
+        return edge_lengths(self.indptr, self.neighbours, self.places)
 
     @cached_property
     def graph(self) -> csr_array:

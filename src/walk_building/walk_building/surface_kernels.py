@@ -63,6 +63,18 @@ def link(grid, step, indptr, neighbours):
 
 
 @numba.njit(cache=True, nogil=True)
+def edge_lengths(indptr, neighbours, places):
+    """Straight distance from each place to each of its neighbours (E,); in a loop, to need no memory but the result."""
+    length = np.empty(len(neighbours))
+    for p in range(len(places)):
+        for e in range(indptr[p], indptr[p + 1]):
+            q = neighbours[e]
+            dx, dy, dz = places[q, 0] - places[p, 0], places[q, 1] - places[p, 1], places[q, 2] - places[p, 2]
+            length[e] = np.sqrt(dx * dx + dy * dy + dz * dz)
+    return length
+
+
+@numba.njit(cache=True, nogil=True)
 def floor_planes(grid, eyes, eye_height, reach, out):
     """Fits a plane to the places around each eye; see WalkableSurface.floor_plane."""
     for n in range(eyes.shape[0]):
