@@ -73,6 +73,19 @@ class Graph:
             process.wait(LIMIT_S)
 
 
+LATCHED = (
+    "importance_map",
+    "importance_map/storeys",
+    "suggested_keypoints",
+    "keypoints",
+    "keypoint_markers",
+    "pairwise_paths",
+    "tour",
+    "path",
+    "trajectory",
+)
+
+
 class Observer:
     """A node that hears every topic."""
 
@@ -105,6 +118,11 @@ class Observer:
 
     def last(self, topic):
         return self.heard[topic][-1] if self.heard[topic] else None
+
+    def wait_for_all(self, limit_s=LIMIT_S):
+        """Waits for the first message of every topic that a finished plan is on; they come in any order."""
+        for topic in LATCHED:
+            self.wait(lambda topic=topic: self.last(topic), f"the first message of {topic}", limit_s)
 
     def after(self, topic, count, what):
         """Returns the newest message of a topic once more than `count` have been heard."""

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.ros
 def running(graph, observer):
     for name in ("trajopt", "sequencer", "importance"):
         graph.start(name)
-    observer.wait(lambda: observer.last("trajectory"), "the first trajectory")
+    observer.wait_for_all()
     return graph
 
 

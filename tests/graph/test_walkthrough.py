@@ -35,7 +35,7 @@ def running(graph, observer):
     """The graph, started from its end, so that every node has to wait for its input."""
     for name in ("trajopt", "sequencer", "importance"):
         graph.start(name)
-    observer.wait(lambda: observer.last("trajectory"), "the first trajectory")
+    observer.wait_for_all()
     return graph
 
 

@@ -170,9 +170,11 @@ class IfcFile:
     def save(self, path: Path) -> None:
         """Writes the file; the same building gives the same bytes."""
         for type_id, products in self._typed.items():
-            ifcopenshell.api.type.assign_type(
-                self._ifc, related_objects=products, relating_type=self._ifc.by_id(type_id)
-            )
+            # One at a time: of several it makes the new entities in the order of a set, by where they lie in memory.
+            for product in products:
+                ifcopenshell.api.type.assign_type(
+                    self._ifc, related_objects=[product], relating_type=self._ifc.by_id(type_id)
+                )
         for place_id, products in self._contained.items():
             ifcopenshell.api.spatial.assign_container(
                 self._ifc, products=products, relating_structure=self._ifc.by_id(place_id)
@@ -222,6 +224,7 @@ class IfcFile:
         for kind, related in (
             ("IfcRelAggregates", "RelatedObjects"),
             ("IfcRelContainedInSpatialStructure", "RelatedElements"),
+            ("IfcRelDefinesByType", "RelatedObjects"),
         ):
             for relation in self._ifc.by_type(kind):
                 setattr(relation, related, sorted(getattr(relation, related), key=lambda entity: int(entity.id())))
