@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stage 3: the packages, built by colcon with links to the sources."""
+"""Stage 4: the packages, built by colcon with links to the sources."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Stage 4: compiling the numeric kernels once; numba keeps the result beside the sources."""
+"""Stage 5: compiling the numeric kernels once; numba keeps the result beside the sources."""
 
 from __future__ import annotations
 

@@ -14,6 +14,7 @@ PACKAGES = (
     "walk_importance",
     "walk_sequencer",
     "walk_trajopt",
+    "walk_vr_bridge",
     "walk_plan",
     "walk_bag",
     "walk_bringup",
@@ -61,6 +62,16 @@ class Layout:
     def environment(self) -> Path:
         """The stored environment of the built packages."""
         return self.state / "environment.json"
+
+    @property
+    def web(self) -> Path:
+        """The sources of the headset page."""
+        return self.root / "src" / "walk_vr_bridge" / "web"
+
+    @property
+    def page(self) -> Path:
+        """The built headset page."""
+        return self.root / "src" / "walk_vr_bridge" / "walk_vr_bridge" / "static" / "index.html"
 
     @property
     def buildings(self) -> Path:

@@ -12,8 +12,8 @@ import shutil
 import sys
 from pathlib import Path
 
-NEEDED_BYTES = 3_000_000_000
-"""The environment takes 1.6 GB, pip's cache and temporary files about as much."""
+NEEDED_BYTES = 5_000_000_000
+"""The environment takes 2.7 GB, pip's cache and temporary files about as much."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

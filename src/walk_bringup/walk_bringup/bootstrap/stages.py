@@ -8,7 +8,7 @@ import dataclasses
 from collections.abc import Callable
 from pathlib import Path
 
-from walk_bringup.bootstrap import build, installation, kernels, venv
+from walk_bringup.bootstrap import build, installation, kernels, page, venv
 from walk_bringup.bootstrap.layout import Layout
 from walk_bringup.bootstrap.machine import Machine
 from walk_bringup.bootstrap.stamps import read_json, write_json
@@ -52,6 +52,14 @@ STAGES = (
         fingerprint=installation.fingerprint,
         evidence=lambda layout: layout.venv / "bin" / "colcon",
         run=installation.install,
+    ),
+    # Before the packages are built, for one of them carries the page.
+    Stage(
+        name="page",
+        stamp=lambda layout: layout.state / "page.json",
+        fingerprint=page.fingerprint,
+        evidence=lambda layout: layout.page,
+        run=page.build,
     ),
     Stage(
         name="build",
