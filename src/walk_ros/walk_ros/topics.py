@@ -12,6 +12,7 @@ from geometry_msgs.msg import PoseArray, PoseStamped
 from nav_msgs.msg import OccupancyGrid, Path
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import Float64, String
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerUpdate, MarkerArray
 
@@ -47,6 +48,10 @@ TOPICS: dict[str, Topic] = {
     "path": Topic(type=Path, qos=latched()),
     "trajectory": Topic(type=MultiDOFJointTrajectory, qos=latched()),
     "viewpoint": Topic(type=PoseStamped, qos=best_effort()),
+    "playback": Topic(type=String, qos=latched()),
+    "playback/seek": Topic(type=Float64, qos=reliable()),
+    "playback/speed": Topic(type=Float64, qos=reliable()),
+    "study_events": Topic(type=DiagnosticArray, qos=reliable()),
     "/diagnostics": Topic(type=DiagnosticArray, qos=reliable(10)),
 }
 
