@@ -16,7 +16,8 @@ export interface Keypoint {
   readonly locked: boolean;
   readonly start: boolean;
   readonly end: boolean;
-  readonly dwellS: number;
+  /** How long the walker stands here; null: as the timing says. */
+  readonly dwellS: number | null;
   readonly lookAt: Vec3 | null;
   /** Why the tour leaves it out, in words; empty where it does not. */
   readonly unreachable: string;
@@ -51,7 +52,8 @@ export interface TourState {
   revision: string;
 }
 
-export type ConnectionPhase = "connecting" | "connected" | "waiting" | "refused";
+/** `pairing`: the server wants a code or a token first. `refused`: it will not have this client at all. */
+export type ConnectionPhase = "connecting" | "pairing" | "connected" | "waiting" | "refused";
 
 export interface ConnectionState {
   readonly phase: ConnectionPhase;
@@ -67,25 +69,50 @@ export interface SessionState {
   /** Who this client is; part of every edit. */
   readonly clientId: string;
   readonly role: "viewer" | "editor";
-  readonly others: number;
 }
+
+/** A closed ring of [x, y]. */
+export type Ring = readonly (readonly [number, number])[];
 
 export interface Storey {
   readonly name: string;
   /** Height of its floor. */
   readonly floorZ: number;
+  /** Around the floor one can walk on; filled by the even-odd rule. */
+  readonly outline: readonly Ring[];
+}
+
+export interface Room {
+  readonly name: string;
+  /** Index of its storey. */
+  readonly storey: number;
+  readonly centre: Vec3;
+  readonly areaM2: number;
+  /** Why no tour visits it; empty where it can be reached. */
+  readonly reason: string;
+}
+
+export interface ModelFile {
+  readonly url: string;
+  /** Names the content: another one means that the file has to be read again. */
+  readonly etag: string;
+  readonly triangles: number;
 }
 
 export interface BuildingState {
   readonly name: string;
   readonly hash: string;
-  /** Address of the full model, and of the simplified one; the same where there is one only. Empty: none yet. */
-  readonly modelUrl: string;
-  readonly miniatureUrl: string;
+  readonly model: ModelFile;
+  readonly miniature: ModelFile;
   readonly min: Vec3;
   readonly max: Vec3;
+  /** On the floor, where a visitor begins. */
+  readonly start: Vec3;
+  /** Lowest first. */
   readonly storeys: readonly Storey[];
-  readonly eyeHeightM: number;
+  readonly rooms: readonly Room[];
+  readonly walker: { readonly eyeHeightM: number; readonly heightM: number; readonly radiusM: number };
+  readonly warnings: readonly string[];
 }
 
 export interface Refusal {
@@ -98,15 +125,23 @@ export interface Refusal {
   readonly atMs: number;
 }
 
-/** A grid of voxels, x fastest, then y, then z; values 0 to 1. */
+export type ChannelName = "obstacle" | "distance" | "visibility" | "importance";
+
+/** A byte b of a channel stands for low + (high - low) b / 255. */
+export interface Channel {
+  readonly name: ChannelName;
+  readonly low: number;
+  readonly high: number;
+}
+
+/** A grid of voxels, four bytes each in the order of the channels, x fastest, then y, then z. */
 export interface ImportanceState {
+  /** Lowest corner of the lowest voxel. */
   readonly origin: Vec3;
   readonly voxelM: number;
   readonly shape: readonly [number, number, number];
-  readonly obstacle: Uint8Array;
-  readonly distance: Uint8Array;
-  readonly visibility: Uint8Array;
-  readonly importance: Uint8Array;
+  readonly channels: readonly [Channel, Channel, Channel, Channel];
+  readonly data: Uint8Array;
   readonly revision: string;
 }
 
@@ -125,13 +160,13 @@ export interface Parameter {
 }
 
 export interface PlaybackState {
-  playing: boolean;
-  timeS: number;
-  /** Times the planned speed. */
-  speed: number;
-  /** Where the eye is, as the server plays it. */
-  position: [number, number, number];
-  quat: [number, number, number, number];
+  readonly playing: boolean;
+  /** Where it was at `atMs` of this client's clock; it goes on from there (`playbackTimeS`). */
+  readonly timeS: number;
+  readonly atMs: number;
+  /** Times the planned speed; below 0: backwards. */
+  readonly speed: number;
+  readonly durationS: number;
 }
 
 export type Surface = "building" | "transparent";
@@ -158,11 +193,27 @@ export interface SelectionState {
   readonly keypoint: number | null;
   /** Index of the storey shown in plan or cut; -1: all. */
   readonly storey: number;
+  /** What a pointer over the view does next; `add` puts a keypoint, `lookAt` says what to look at from the chosen one. */
+  readonly tool: "edit" | "add" | "lookAt";
 }
 
-/** What edits can be taken back or done again, as far as this client knows. */
-export interface HistoryState {
+/** What the sequencer offers: by how many metres another order would be shorter. */
+export interface OfferState {
   readonly betterOrderSavesM: number;
+}
+
+/** What the nodes say of themselves, by node name. */
+export interface NodeStatus {
+  readonly node: string;
+  readonly level: "ok" | "warn" | "error";
+  readonly message: string;
+}
+
+export interface LoadingState {
+  readonly building: string;
+  readonly importance: string;
+  /** The building cannot be loaded at all. */
+  readonly failed: boolean;
 }
 
 export interface State {
@@ -178,7 +229,10 @@ export interface State {
   playback: PlaybackState;
   settings: SettingsState;
   selection: SelectionState;
-  history: HistoryState;
+  offer: OfferState;
+  nodes: readonly NodeStatus[];
+  /** How building and importance volume come in: a sentence while they do not. */
+  loading: LoadingState;
 }
 
 export type Slice = keyof State;

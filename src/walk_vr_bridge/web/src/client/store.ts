@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page's state with listeners per slice; telling them costs no allocation. */
 
-import type { HistoryState, PathState, SelectionState, SettingsState, Slice, State, TourState } from "./state";
+import type { LoadingState, OfferState, PathState, SelectionState, SettingsState, Slice, State, TourState } from "./state";
 
 export type Listener = () => void;
 
@@ -18,8 +18,9 @@ export const DEFAULT_SETTINGS: SettingsState = {
   hand: "right",
 };
 
-const NO_SELECTION: SelectionState = { keypoint: null, storey: -1 };
-const NO_HISTORY: HistoryState = { betterOrderSavesM: 0 };
+const NO_SELECTION: SelectionState = { keypoint: null, storey: -1, tool: "edit" };
+const NO_OFFER: OfferState = { betterOrderSavesM: 0 };
+const LOADING: LoadingState = { building: "The building is loading …", importance: "", failed: false };
 
 export function emptyPath(): PathState {
   return {
@@ -43,7 +44,7 @@ function emptyTour(): TourState {
 export function initialState(clientId: string): State {
   return {
     connection: { phase: "connecting", message: "Connecting …", retryAtMs: 0, unconfirmed: 0 },
-    session: { clientId, role: "viewer", others: 0 },
+    session: { clientId, role: "viewer" },
     building: null,
     keypoints: [],
     path: emptyPath(),
@@ -51,10 +52,12 @@ export function initialState(clientId: string): State {
     refusals: [],
     importance: null,
     parameters: [],
-    playback: { playing: false, timeS: 0, speed: 1, position: [0, 0, 0], quat: [0, 0, 0, 1] },
+    playback: { playing: false, timeS: 0, atMs: 0, speed: 1, durationS: 0 },
     settings: DEFAULT_SETTINGS,
     selection: NO_SELECTION,
-    history: NO_HISTORY,
+    offer: NO_OFFER,
+    nodes: [],
+    loading: LOADING,
   };
 }
 
@@ -89,7 +92,7 @@ export class Store {
   }
 
   /** Changes some fields of a slice that is a record. */
-  patch<S extends "connection" | "session" | "settings" | "selection" | "history">(
+  patch<S extends "connection" | "session" | "settings" | "selection" | "offer" | "loading">(
     slice: S,
     fields: Partial<State[S]>,
   ): void {
