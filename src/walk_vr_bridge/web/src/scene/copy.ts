@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { BufferGeometry, Group, LineBasicMaterial, LineSegments, Mesh, type Plane, Vector3 } from "three";
+import type { BuildingModel } from "./model";
+import { EDGE_COLOUR } from "./palette";
+import { SurfaceMaterial } from "./surface";
+
+const GLASS_OPACITY = 0.28;
+const THIN_OPACITY = 0.16;
+
+/** One showing of the building: full scale, or the miniature, which is cut by planes of its own. */
+export class BuildingCopy {
+  readonly group = new Group();
+  private readonly solid: Mesh<BufferGeometry, SurfaceMaterial>;
+  private readonly glass: Mesh<BufferGeometry, SurfaceMaterial>;
+  private readonly edges: LineSegments<BufferGeometry, LineBasicMaterial>;
+  private readonly eye = new Vector3();
+
+  constructor(planes: Plane[]) {
+    this.solid = new Mesh(new BufferGeometry(), new SurfaceMaterial(planes));
+    this.glass = new Mesh(new BufferGeometry(), new SurfaceMaterial(planes, GLASS_OPACITY));
+    const ink = new LineBasicMaterial({ color: EDGE_COLOUR, transparent: true, opacity: 0.55, clippingPlanes: planes });
+    this.edges = new LineSegments(new BufferGeometry(), ink);
+    this.glass.renderOrder = 20;
+    this.edges.renderOrder = 10;
+    this.group.add(this.solid, this.edges, this.glass);
+  }
+
+  setModel(model: BuildingModel): void {
+    this.solid.geometry = model.surface;
+    this.glass.geometry = model.glass;
+    this.glass.visible = (model.glass.index?.count ?? 0) > 0;
+    this.edges.geometry = model.edges;
+  }
+
+  /** Lets one look through the walls. */
+  setThin(thin: boolean): void {
+    this.solid.material.setOpacity(thin ? THIN_OPACITY : 1);
+    this.solid.renderOrder = thin ? 15 : 0;
+  }
+
+  setEdgeStrength(opacity: number): void {
+    this.edges.material.opacity = opacity;
+    this.edges.visible = opacity > 0.02;
+  }
+
+  /** Tells the light where the viewer is, in world coordinates. */
+  lookFrom(viewer: Vector3): void {
+    this.eye.copy(viewer);
+    this.group.worldToLocal(this.eye);
+    this.solid.material.eye.copy(this.eye);
+    this.glass.material.eye.copy(this.eye);
+  }
+}

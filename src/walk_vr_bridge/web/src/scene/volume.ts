@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+
+/** The importance volume as a texture, and the points of it that are worth showing. */
+
+import { BufferAttribute, BufferGeometry, Data3DTexture, LinearFilter, RGBAFormat, UnsignedByteType } from "three";
+import type { ChannelName, ImportanceState } from "../client/state";
+
+export const MAX_POINTS = 20000;
+
+/** Returns the four maps as one texture, as they came. */
+export function makeTexture(map: ImportanceState): Data3DTexture {
+  const [nx, ny, nz] = map.shape;
+  // A typed array of a larger buffer would be sent as it is; three.js wants one over a plain buffer.
+  const texture = new Data3DTexture(new Uint8Array(map.data), nx, ny, nz);
+  texture.format = RGBAFormat;
+  texture.type = UnsignedByteType;
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.unpackAlignment = 1;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+export function channelIndex(map: ImportanceState, channel: ChannelName): number {
+  return map.channels.findIndex(({ name }) => name === channel);
+}
+
+/**
+ * Chooses at most MAX_POINTS voxels to show: occupied ones of the obstacle map, else free ones, the more of them the higher
+ * their value. The choice is the same every time.
+ *
+ * @returns points in the map's coordinates with the value as `aValue`, 0 to 1.
+ */
+export function choosePoints(map: ImportanceState, channel: ChannelName): BufferGeometry {
+  const [nx, ny, nz] = map.shape;
+  const count = nx * ny * nz;
+  const full = channelIndex(map, "obstacle");
+  const shown = channelIndex(map, channel);
+  const weigh = (i: number): number => {
+    const occupied = map.data[4 * i + full] > 127;
+    if (channel === "obstacle") return occupied ? 1 : 0;
+    return occupied ? 0 : (map.data[4 * i + shown] / 255) ** 2;
+  };
+  let total = 0;
+  for (let i = 0; i < count; i++) total += weigh(i);
+  const share = total > 0 ? Math.min(1, (0.95 * MAX_POINTS) / total) : 0;
+  const places: number[] = [];
+  const values: number[] = [];
+  for (let i = 0; i < count && values.length < MAX_POINTS; i++) {
+    if (scatter(i) >= weigh(i) * share) continue;
+    const at = [i % nx, Math.floor(i / nx) % ny, Math.floor(i / (nx * ny))];
+    for (let axis = 0; axis < 3; axis++) places.push(map.origin[axis] + (at[axis] + 0.5) * map.voxelM);
+    values.push(map.data[4 * i + shown] / 255);
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(places), 3));
+  geometry.setAttribute("aValue", new BufferAttribute(Float32Array.from(values), 1));
+  return geometry;
+}
+
+/** A number from 0 up to 1 that looks random and is always the same for an index. */
+function scatter(index: number): number {
+  let x = (index + 0x9e3779b9) | 0;
+  x = Math.imul(x ^ (x >>> 16), 0x85ebca6b);
+  x = Math.imul(x ^ (x >>> 13), 0xc2b2ae35);
+  return ((x ^ (x >>> 16)) >>> 0) / 4294967296;
+}
