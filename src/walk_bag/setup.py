@@ -25,6 +25,7 @@ setup(
     entry_points={
         "console_scripts": [
             "record = walk_bag.record:main",
+            "recover = walk_bag.recover:main",
             "replay = walk_bag.replay:main",
         ],
     },

@@ -10,41 +10,63 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
+
+from walk_bag import parameter_watch
 from walk_bag.errors import BagError
-from walk_bag.storage import BagTopic, read_bag, read_topics
+from walk_bag.pace import Pace
+from walk_bag.storage import read_topics
+from walk_bag.timeline import Timeline
+from walk_bag.topics import BagMessage, BagTopic
+from walk_ros.qos import reliable
 from walk_ros.raw import RawPublisher, message_type, profile
 from walk_ros.runner import run_node, user_arguments
-from walk_ros.topics import Topic
+from walk_ros.topics import NAMESPACE, Topic, absolute_name
 
 ACKNOWLEDGE_S = 5.0
 """How long a subscriber may take to acknowledge the last message before the process ends."""
 
+CLOCK_HZ = 100.0
+
 
 class Replayer(RawPublisher):
-    """Publishes the messages of a bag with the times between them that they were recorded with."""
+    """Publishes the messages of a bag with the times between them that they were recorded with.
 
-    def __init__(self, options: argparse.Namespace, topics: Sequence[BagTopic]) -> None:
-        super().__init__("replay", {t.name: _as_topic(t) for t in topics})
+    While it plays, `replay/seek` (std_msgs/Float64, seconds from the beginning) goes to another moment and
+    `replay/pause` (std_srvs/SetBool) holds it.
+    """
+
+    def __init__(self, options: argparse.Namespace, timeline: Timeline) -> None:
+        super().__init__("replay", {t.name: _as_topic(t) for t in timeline.topics})
         self._options = options
-        self._ending = threading.Event()
+        self._timeline = timeline
+        self._pace = Pace(options.rate)
+        self._clock_topic = self.create_publisher(Clock, "/clock", reliable(10)) if options.clock else None
+        self.create_subscription(Float64, absolute_name("replay/seek", options.namespace), self._seek, reliable(10))
+        self.create_service(SetBool, absolute_name("replay/pause", options.namespace), self._pause)
+        if options.clock:
+            self.create_timer(1 / CLOCK_HZ, self._tell_time)
         self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
         self._thread.start()
 
     def destroy_node(self) -> None:
         """Ends the replay, then the node."""
-        self._ending.set()
+        self._pace.end()
         self._thread.join()
         super().destroy_node()
 
     def _run(self) -> None:
         try:
-            self._ending.wait(self._options.delay)
-            self.get_logger().info(f"replaying {self._options.bag}; Ctrl-C ends it")
-            while not self._ending.is_set():
-                self._play()
+            self._pace.rest(self._options.delay)
+            self.get_logger().info(f"replaying {self._options.bag}, {self._timeline.duration_s:.1f} s; Ctrl-C ends it")
+            start_ns = self._timeline.start_ns + round(1e9 * self._options.start)
+            while not self._pace.ended:
+                self._play(start_ns)
                 if not self._options.loop:
                     break
-            if not self._ending.is_set():
+            if not self._pace.ended:
                 self.wait_until_received(ACKNOWLEDGE_S)
         except BagError as error:
             self.get_logger().error(str(error))
@@ -53,16 +75,46 @@ class Replayer(RawPublisher):
         else:
             self.end()
 
-    def _play(self) -> None:
-        """Publishes the bag once."""
-        last_ns, count = None, 0
-        for message in read_bag(self._options.bag):
-            if last_ns is not None and self._ending.wait((message.stamp_ns - last_ns) / 1e9 / self._options.rate):
-                return
-            last_ns = message.stamp_ns
-            self.send(message.topic.name, message.data)
-            count += 1
-        self.get_logger().info(f"published {count} messages of {self._options.bag}")
+    def _play(self, start_ns: int) -> None:
+        """Publishes the bag once from a moment on, and from another one whenever that is asked for."""
+        sought: int | None = start_ns
+        while sought is not None and not self._pace.ended:
+            state = self._timeline.state_at(sought)
+            for message in state:
+                self.send(message.topic.name, message.data)
+            self._pace.set_out(sought)
+            count = len(state)
+            for message in self._timeline.messages_from(sought):
+                if not self._pace.wait_for(message.stamp_ns):
+                    break
+                self._publish(message)
+                count += 1
+            sought = self._pace.take_sought()
+            self.get_logger().info(f"published {count} messages of {self._options.bag}")
+
+    def _publish(self, message: BagMessage) -> None:
+        self._tell_time()
+        self.send(message.topic.name, message.data)
+
+    def _tell_time(self) -> None:
+        now_ns = self._pace.now_ns()
+        if self._clock_topic is not None and now_ns is not None and self.context.ok():
+            msg = Clock()
+            msg.clock.sec, msg.clock.nanosec = divmod(now_ns, 1_000_000_000)
+            self._clock_topic.publish(msg)
+
+    def _seek(self, msg: Float64) -> None:
+        if not 0 <= msg.data <= self._timeline.duration_s:
+            self.get_logger().warning(
+                f"replay/seek: {msg.data} s is not within the bag's 0 to {self._timeline.duration_s:.1f} s"
+            )
+            return
+        self._pace.seek(self._timeline.start_ns + round(1e9 * msg.data))
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._pace.hold(request.data)
+        response.success, response.message = True, "paused" if request.data else "playing"
+        return response
 
 
 def _as_topic(topic: BagTopic) -> Topic:
@@ -75,8 +127,14 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="replay", description="Publish a recorded walkthrough again.")
     parser.add_argument("bag", type=Path, help="bag directory or .mcap file")
     parser.add_argument("--rate", type=_positive, default=1.0, help="how many times as fast (default: %(default)s)")
+    parser.add_argument(
+        "--start", type=_not_negative, default=0.0, help="seconds to begin at; latched topics have what held then"
+    )
     parser.add_argument("--loop", action="store_true", help="begin again at the end, until Ctrl-C")
     parser.add_argument("--hold", action="store_true", help="stay at the end, so that latecomers get latched topics")
+    parser.add_argument("--clock", action="store_true", help="publish the bag's time on /clock, for use_sim_time")
+    parser.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these, such as keypoint_edits")
+    parser.add_argument("--namespace", default=NAMESPACE, help="that --topics are relative to (default: %(default)s)")
     parser.add_argument(
         "--delay", type=_positive, default=0.5, help="seconds for subscribers to be found (default: %(default)s)"
     )
@@ -90,16 +148,41 @@ def _positive(text: str) -> float:
     return value
 
 
+def _not_negative(text: str) -> float:
+    value = float(text)
+    if not 0 <= value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text} is not 0 or above")
+    return value
+
+
+def chosen(options: argparse.Namespace) -> Timeline:
+    """Returns the part of the bag that is to be played.
+
+    Raises:
+        BagError: The bag cannot be read, or does not have what is asked for.
+    """
+    names = {absolute_name(name, options.namespace) for name in options.topics or ()}
+    # Parameter events are kept to be read: published again they would speak for nodes that are not there.
+    timeline = Timeline.of(options.bag, names or {t.name for t in read_topics(options.bag)} - {parameter_watch.TOPIC})
+    missing = names - {topic.name for topic in timeline.topics}
+    if missing:
+        has = ", ".join(sorted(topic.name for topic in Timeline.of(options.bag).topics))
+        raise BagError(options.bag, f"has no topic {', '.join(sorted(missing))}; it has {has}")
+    if options.start > timeline.duration_s:
+        raise BagError(options.bag, f"is {timeline.duration_s:.1f} s long: it cannot begin at {options.start:g} s")
+    return timeline
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Replays the bag; returns the exit code."""
     argv = list(sys.argv if argv is None else argv)
     options = parse(user_arguments(argv)[1:])
     try:
-        topics = read_topics(options.bag)
+        timeline = chosen(options)
     except BagError as error:
         sys.stderr.write(f"walk: {error}\n")
         return 2
-    return run_node(lambda: Replayer(options, topics), argv)
+    return run_node(lambda: Replayer(options, timeline), argv)
 
 
 if __name__ == "__main__":

@@ -1,56 +1,23 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""rosbag2 bags in MCAP, without a ROS installation; the one place that knows the bag library."""
+"""rosbag2 bags: written in MCAP, read in all storages of rosbag2, without a ROS installation."""
 
 from __future__ import annotations
 
-import dataclasses
-import shutil
-import tempfile
+import contextlib
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
-from typing import Literal, Self
+from typing import Self
 
 from rosbags.highlevel import AnyReader
-from rosbags.interfaces import (
-    Connection,
-    Qos,
-    QosDurability,
-    QosHistory,
-    QosLiveliness,
-    QosReliability,
-    QosTime,
-)
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.interfaces import Connection, QosDurability, QosReliability
 from rosbags.typesys import Stores, get_typestore
 
 from walk_bag.errors import BagError
-
-VERSION: Literal[8] = 8
-"""Of the metadata: what the readers of Humble's time understand, too."""
-
-_ANY_TIME = QosTime(2147483647, 4294967295)  # how rosbag2 writes "infinite"
-
-
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class BagTopic:
-    """A topic of a bag and the QoS its publisher offered."""
-
-    name: str  # full, such as /walk/path
-    type_name: str  # such as nav_msgs/msg/Path
-    latched: bool
-    reliable: bool
-    depth: int
-
-
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class BagMessage:
-    """A message of a bag."""
-
-    topic: BagTopic
-    stamp_ns: int  # when it was recorded
-    data: bytes  # CDR
+from walk_bag.mcap_file import McapFile, is_finished, is_mcap, read_whole_records
+from walk_bag.metadata import metadata_yaml
+from walk_bag.topics import BagMessage, BagTopic
 
 
 class BagWriter:
@@ -60,24 +27,38 @@ class BagWriter:
     other becomes a rosbag2 directory, which must not be there yet.
     """
 
-    def __init__(self, path: Path | str) -> None:
+    def __init__(self, path: Path | str, *, keep: bool = False) -> None:
+        """Begins the bag.
+
+        Args:
+            path: The bag.
+            keep: Whether what was written before an error is worth keeping: a bare file is then written as
+                `NAME.part.mcap`, a bag of its own, until it is complete.
+
+        Raises:
+            BagError: The bag cannot be written there.
+        """
         self.path = Path(path)
-        self._bare = self.path.suffix == ".mcap"
+        self._keep = keep or self.path.suffix != ".mcap"
         self._types = get_typestore(Stores.ROS2_JAZZY)
-        self._connections: dict[str, Connection] = {}
-        self._folder: Path | None = None
         try:
-            if self._bare:
-                self.path.parent.mkdir(parents=True, exist_ok=True)
-                # Beside the target, so that moving it there is one step on one file system.
-                self._folder = Path(tempfile.mkdtemp(prefix=".bag-", dir=self.path.parent))
-            elif self.path.exists():
-                raise BagError(self.path, "exists already; name another bag or take it away")
-            directory = self.path if self._folder is None else self._folder / self.path.stem
-            self._writer = Writer(directory, version=VERSION, storage_plugin=StoragePlugin.MCAP)
-            self._writer.open()
+            self._file = McapFile(self._begin())
         except OSError as error:
             raise BagError(self.path, f"cannot be written: {error.strerror}") from error
+
+    def _begin(self) -> Path:
+        """Returns the file to write; makes the folders it needs."""
+        if self.path.suffix != ".mcap":
+            if self.path.exists():
+                raise BagError(self.path, "exists already; name another bag or take it away")
+            self.path.mkdir(parents=True)
+            return self.path / f"{self.path.name}.mcap"
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        part = self.path.with_suffix(".part.mcap")
+        if self._keep and part.exists():
+            raise BagError(part, "is what is left of a recording that was cut off; recover it or take it away")
+        part.unlink(missing_ok=True)
+        return part
 
     def __enter__(self) -> Self:
         return self
@@ -85,31 +66,149 @@ class BagWriter:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is not None and self._folder is not None:
-            # Half a file must not replace a whole one.
-            self._writer.abort()
-            shutil.rmtree(self._folder)
-        else:
+        if error is None:
             self.close()
+            return
+        self._file.cut()
+        if not self._keep:
+            self._file.path.unlink()
+
+    @property
+    def message_count(self) -> int:
+        """How many messages were written."""
+        return self._file.message_count
+
+    @property
+    def duration_s(self) -> float:
+        """Time from the first message to the last."""
+        return (self._file.last_ns - self._file.first_ns) / 1e9
 
     def type_hash(self, type_name: str) -> str:
         """Returns the hash of a message type, `RIHS01_…`, as the bag will hold it."""
         return str(self._types.hash_rihs01(type_name))
 
     def write(self, topic: BagTopic, stamp_ns: int, data: bytes) -> None:
-        """Appends a message (CDR bytes) that was sent or came in at the time."""
-        if topic.name not in self._connections:
-            self._connections[topic.name] = self._writer.add_connection(
-                topic.name, topic.type_name, typestore=self._types, offered_qos_profiles=[_offered(topic)]
-            )
-        self._writer.write(self._connections[topic.name], stamp_ns, data)
+        """Appends a message (CDR bytes) that was sent or came in at the time.
+
+        Raises:
+            BagError: The disk is full or gone.
+        """
+        try:
+            if topic.name not in self._file.topics:
+                definition, _ = self._types.generate_msgdef(topic.type_name, ros_version=2)
+                self._file.add(topic, definition, self.type_hash(topic.type_name))
+            self._file.write(topic.name, stamp_ns, data)
+        except OSError as error:
+            raise _disk_error(self._file.path, error) from error
+
+    def flush(self) -> None:
+        """Hands what was written to the operating system; a process killed later loses none of it."""
+        try:
+            self._file.flush()
+        except OSError as error:
+            raise _disk_error(self._file.path, error) from error
 
     def close(self) -> None:
         """Finishes the bag: index and metadata."""
-        self._writer.close()
-        if self._folder is not None:
-            (self._folder / self.path.stem / f"{self.path.stem}.mcap").replace(self.path)
-            shutil.rmtree(self._folder)
+        text = metadata_yaml(self._file)
+        try:
+            self._file.finish(text)
+            if self.path.suffix == ".mcap":
+                self._file.path.replace(self.path)
+            else:
+                (self.path / "metadata.yaml").write_text(text, encoding="utf-8")
+        except OSError as error:
+            self._file.cut()
+            raise _disk_error(self._file.path, error) from error
+
+
+def _disk_error(path: Path, error: OSError) -> BagError:
+    return BagError(
+        path, f"cannot be written any more: {error.strerror}; what was written before is kept and can be read"
+    )
+
+
+def read_bag(
+    path: Path | str, topics: set[str] | None = None, *, start_ns: int = 0, stop_ns: int = 2**63 - 1
+) -> Iterator[BagMessage]:
+    """Yields the messages of a bag, a directory or a bare file, by time.
+
+    A bag whose writer was killed gives the messages up to where it breaks off.
+
+    Args:
+        path: The bag: MCAP or SQLite, as rosbag2 writes them.
+        topics: Full names of those to read; None for all.
+        start_ns: Messages recorded before are left out.
+        stop_ns: Those recorded then or later are left out.
+
+    Raises:
+        BagError: There is no such bag, or it is damaged.
+    """
+    path = _existing(path)
+    broken = unfinished_file(path)
+    if broken is not None:
+        for message in _whole_messages(path, broken):
+            if start_ns <= message.stamp_ns < stop_ns and (topics is None or message.topic.name in topics):
+                yield message
+        return
+    with _reading(path) as reader:
+        wanted = [c for c in reader.connections if topics is None or c.topic in topics]
+        bag_topics = {c.id: _topic(c) for c in wanted}
+        # Without connections the reader would give all.
+        for connection, stamp_ns, data in reader.messages(wanted, start_ns, stop_ns) if wanted else ():
+            yield BagMessage(topic=bag_topics[connection.id], stamp_ns=stamp_ns, data=bytes(data))
+
+
+def read_topics(path: Path | str) -> tuple[BagTopic, ...]:
+    """Returns the topics of a bag; raises BagError as `read_bag` does."""
+    path = _existing(path)
+    broken = unfinished_file(path)
+    if broken is not None:
+        found = {message.topic.name: message.topic for message in _whole_messages(path, broken)}
+        return tuple(found.values())
+    with _reading(path) as reader:
+        return tuple(_topic(c) for c in reader.connections)
+
+
+def read_span(path: Path | str) -> tuple[int, int]:
+    """Returns when the first and the last message of a bag were recorded [ns]; (0, 0) where there are none."""
+    path = _existing(path)
+    broken = unfinished_file(path)
+    if broken is not None:
+        stamps = [message.stamp_ns for message in _whole_messages(path, broken)]
+        return (min(stamps), max(stamps)) if stamps else (0, 0)
+    with _reading(path) as reader:
+        # The library's end is one past the last message.
+        return (reader.start_time, reader.end_time - 1) if reader.message_count else (0, 0)
+
+
+def unfinished_file(path: Path) -> Path | None:
+    """Returns the MCAP file of a bag whose writer did not get to close it, None if the bag is whole."""
+    files = [path] if path.is_file() else sorted(path.glob("*.mcap"))
+    broken = [file for file in files if is_mcap(file) and not is_finished(file)]
+    if not broken and path.is_dir() and len(files) == 1 and not (path / "metadata.yaml").exists():
+        return files[0]  # closed, but killed before the directory was complete
+    return broken[0] if broken else None
+
+
+def recover_bag(path: Path | str, out: Path | str) -> int:
+    """Writes what can be read of a broken bag as a whole one; returns how many messages that is.
+
+    Raises:
+        BagError: There is nothing to read, or `out` cannot be written.
+    """
+    with BagWriter(out) as writer:
+        for message in read_bag(path):
+            writer.write(message.topic, message.stamp_ns, message.data)
+        return writer.message_count
+
+
+def _whole_messages(path: Path, file: Path) -> Iterator[BagMessage]:
+    # In the order of the file, which is that of time: a recorder writes as messages come.
+    try:
+        yield from read_whole_records(file)
+    except ValueError as error:
+        raise BagError(path, f"is not a bag that can be read: {error}") from error
 
 
 def _existing(path: Path | str) -> Path:
@@ -118,44 +217,15 @@ def _existing(path: Path | str) -> Path:
     return Path(path)
 
 
-def read_bag(path: Path | str) -> Iterator[BagMessage]:
-    """Yields the messages of a bag, a directory or a bare `.mcap`, by time.
-
-    Raises:
-        BagError: There is no such bag, or it is damaged.
-    """
-    path = _existing(path)
+@contextlib.contextmanager
+def _reading(path: Path) -> Iterator[AnyReader]:
     try:
         with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            topics = {c.id: _topic(c) for c in reader.connections}
-            for connection, stamp_ns, data in reader.messages():
-                yield BagMessage(topic=topics[connection.id], stamp_ns=stamp_ns, data=bytes(data))
+            yield reader
+    except GeneratorExit:
+        raise
     except Exception as error:  # a damaged file fails anywhere inside of the library
         raise BagError(path, f"is not a bag that can be read: {error or type(error).__name__}") from error
-
-
-def read_topics(path: Path | str) -> tuple[BagTopic, ...]:
-    """Returns the topics of a bag; raises BagError as `read_bag` does."""
-    path = _existing(path)
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            return tuple(_topic(c) for c in reader.connections)
-    except Exception as error:  # a damaged file fails anywhere inside of the library
-        raise BagError(path, f"is not a bag that can be read: {error or type(error).__name__}") from error
-
-
-def _offered(topic: BagTopic) -> Qos:
-    return Qos(
-        history=QosHistory.KEEP_LAST,
-        depth=topic.depth,
-        reliability=QosReliability.RELIABLE if topic.reliable else QosReliability.BEST_EFFORT,
-        durability=QosDurability.TRANSIENT_LOCAL if topic.latched else QosDurability.VOLATILE,
-        deadline=_ANY_TIME,
-        lifespan=_ANY_TIME,
-        liveliness=QosLiveliness.AUTOMATIC,
-        liveliness_lease_duration=_ANY_TIME,
-        avoid_ros_namespace_conventions=False,
-    )
 
 
 def _topic(connection: Connection) -> BagTopic:

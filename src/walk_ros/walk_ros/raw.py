@@ -42,23 +42,26 @@ def from_bytes(data: bytes, name: str) -> Any:
 class RawSubscriber(Node):
     """Hands every message of some topics on as bytes."""
 
-    def __init__(self, name: str, topics: Mapping[str, Topic], on_raw: OnRaw) -> None:
+    def __init__(self, name: str, topics: Mapping[str, Topic], on_raw: OnRaw, *, depth: int = 1) -> None:
         """Subscribes.
 
         Args:
             name: Of the node.
             topics: By full name.
             on_raw: Called for every message, in the thread of the executor.
+            depth: How many messages of a topic may wait, where the topic's own profile has fewer: one who needs
+                all of them cannot do with the newest.
         """
         super().__init__(name)
         for topic, spec in topics.items():
-            self._listen(topic, spec, on_raw)
+            self._listen(topic, spec, on_raw, depth)
 
-    def _listen(self, topic: str, spec: Topic, on_raw: OnRaw) -> None:
+    def _listen(self, topic: str, spec: Topic, on_raw: OnRaw, depth: int) -> None:
         def callback(data: bytes) -> None:
             on_raw(topic, bytes(data), self.get_clock().now().nanoseconds)
 
-        self.create_subscription(spec.type, topic, callback, spec.qos, raw=True)
+        qos = profile(**{**policies(spec.qos), "depth": max(int(spec.qos.depth), depth)})
+        self.create_subscription(spec.type, topic, callback, qos, raw=True)
 
     def type_hash(self, topic: str) -> str:
         """Returns the type hash (`RIHS01_…`) that a publisher of the topic announces, "" if none is known."""

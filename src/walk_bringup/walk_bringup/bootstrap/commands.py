@@ -9,6 +9,7 @@ COMMANDS = {
     "plan": "Turn a building into a collision-free, timed, recorded walkthrough.",
     "run": "Start one executable of a package: what `ros2 run` does.",
     "record": "Record a walkthrough as a rosbag2 (MCAP) bag.",
+    "recover": "Make a whole bag of one whose recording was cut off.",
     "replay": "Publish a recorded walkthrough again.",
     "params": "Print all parameters of the nodes with defaults, units and ranges as YAML.",
     "bench": "Measure every stage, side by side with the plain way, as JSON.",

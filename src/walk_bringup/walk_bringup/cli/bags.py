@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""`./walk record` and `./walk replay`: the executables of walk_bag."""
+"""`./walk record`, `recover` and `replay`: the executables of walk_bag."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from walk_bringup.cli.executables import find_executable
 
 _EXAMPLES = {
     "record": ("./walk record --out tour_bag", "./walk record --out tour.mcap --topics path trajectory"),
-    "replay": ("./walk replay tour_bag", "./walk replay out/building/tour.mcap"),
+    "recover": ("./walk recover tour_bag", "./walk recover tour.part.mcap --out tour.mcap"),
+    "replay": ("./walk replay out/building/tour.mcap", "./walk replay tour_bag --start 30 --rate 2 --clock"),
 }
 # The options are those of the executables, which explain them themselves.
 _PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
@@ -26,6 +27,13 @@ _PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
 def record(arguments: tuple[str, ...]) -> int:
     """Record a walkthrough as a rosbag2 (MCAP) bag."""
     return _hand_over("record", arguments)
+
+
+@click.command(short_help=COMMANDS["recover"], context_settings=_PASS_ON, add_help_option=False)
+@click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
+def recover(arguments: tuple[str, ...]) -> int:
+    """Make a whole bag of one whose recording was cut off."""
+    return _hand_over("recover", arguments)
 
 
 @click.command(short_help=COMMANDS["replay"], context_settings=_PASS_ON, add_help_option=False)

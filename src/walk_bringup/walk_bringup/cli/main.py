@@ -19,6 +19,7 @@ _MODULES = {
     "plan": "plan",
     "run": "run",
     "record": "bags",
+    "recover": "bags",
     "replay": "bags",
     "params": "params",
     "bench": "bench",
