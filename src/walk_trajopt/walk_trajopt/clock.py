@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from walk_building.errors import ParameterError
 from walk_trajopt.config import TimingConfig
-from walk_trajopt.heading import Heading
+from walk_trajopt.heading import Heading, gradient
 
 _TICK_S = 0.01
 _APART = 3  # places of the grid between two rests, at least
@@ -68,7 +68,8 @@ def _at_speed(
     heading: Heading, stops_m: NDArray[np.float64], dwell_s: NDArray[np.float64], config: TimingConfig, speed_mps: float
 ) -> Clock:
     smoothing_s = 2.0 * config.max_acceleration_mps2 / config.max_jerk_mps3
-    limit = _limits(heading, config, speed_mps)
+    turn_rate, lateral = config.max_turn_rate_radps, config.max_lateral_acceleration_mps2
+    limit = _limits(heading.arc_m, heading.yaw, heading.look, heading.bend, turn_rate, lateral, speed_mps)
     limit = _widened(limit, heading.spacing_m, config.max_acceleration_mps2, 0.5 * smoothing_s)
     at, rest_s = _rests(np.rint(stops_m / heading.spacing_m).astype(np.int64), dwell_s, len(limit))
     limit[at] = limit[0] = limit[-1] = 0.0
@@ -76,8 +77,10 @@ def _at_speed(
     dwell = np.zeros(len(limit))
     # The average eats as much of a rest as it lasts.
     dwell[at] = rest_s + smoothing_s
-    arc, speed = _ticks(heading, limit, dwell)
-    return _smoothed(arc, speed, smoothing_s)
+    arc, speed = _ticks(heading.arc_m, limit, dwell)
+    arc, speed, acceleration = _smoothed(arc, speed, max(round(0.5 * smoothing_s / _TICK_S), 1))
+    t_s = _TICK_S * np.arange(len(arc), dtype=np.float64)
+    return Clock(t_s=t_s, arc_m=arc, speed_mps=speed, acceleration_mps2=acceleration)
 
 
 def _rests(
@@ -95,17 +98,21 @@ def _rests(
     return np.array(list(rests), dtype=np.int64), np.array(list(rests.values()), dtype=np.float64)
 
 
-def _limits(heading: Heading, config: TimingConfig, speed_mps: float) -> NDArray[np.float64]:
+@numba.njit(cache=True, nogil=True)
+def _limits(arc_m, yaw, look, bend, turn_rate, lateral_acceleration, speed):
     """Returns the highest speed (g,) at each place of the grid: in turns the body and the eyes have theirs."""
-    lateral = np.sqrt(config.max_lateral_acceleration_mps2 / np.maximum(heading.bend, 1e-9))
-    turning = np.abs(np.gradient(heading.look, heading.spacing_m))
+    spacing = arc_m[1]
+    turning = gradient(look, spacing)
     # Where the path turns on the spot, curvature does not say how sudden that is; the change of direction does.
-    ahead, behind = (np.interp(heading.arc_m + side, heading.arc_m, heading.yaw) for side in (_BESIDE_M, -_BESIDE_M))
-    corner = np.minimum(np.abs(ahead - behind), np.pi)
-    sudden = config.max_lateral_acceleration_mps2 * _STEP_S / np.maximum(2.0 * np.sin(0.5 * corner), 1e-9)
-    lateral = np.minimum(lateral, sudden)
-    looking = config.max_turn_rate_radps / np.maximum(turning, 1e-9)
-    return np.minimum(speed_mps, np.maximum(np.minimum(lateral, looking), min(_CREEP_MPS, speed_mps)))
+    ahead, behind = np.interp(arc_m + _BESIDE_M, arc_m, yaw), np.interp(arc_m - _BESIDE_M, arc_m, yaw)
+    limit = np.empty(len(arc_m))
+    for i in range(len(arc_m)):
+        lateral = np.sqrt(lateral_acceleration / max(bend[i], 1e-9))
+        corner = min(abs(ahead[i] - behind[i]), np.pi)
+        sudden = lateral_acceleration * _STEP_S / max(2.0 * np.sin(0.5 * corner), 1e-9)
+        looking = turn_rate / max(abs(turning[i]), 1e-9)
+        limit[i] = min(speed, max(min(lateral, sudden, looking), min(_CREEP_MPS, speed)))
+    return limit
 
 
 @numba.njit(cache=True, nogil=True)
@@ -132,36 +139,51 @@ def _pass(speed: NDArray[np.float64], spacing: float, acceleration: float) -> No
         speed[i] = min(speed[i], np.sqrt(speed[i + 1] ** 2 + gain))
 
 
-def _ticks(
-    heading: Heading, speed: NDArray[np.float64], dwell_s: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+@numba.njit(cache=True, nogil=True)
+def _ticks(arc_m, speed, dwell_s):
     """Returns arc lengths and speeds every tick, with constant acceleration between places of the grid."""
-    duration = 2.0 * heading.spacing_m / (speed[:-1] + speed[1:])
-    arrive = np.concatenate([[0.0], np.cumsum(duration + dwell_s[1:])]) + dwell_s[0]
-    arrive[1:] -= dwell_s[1:]
-    leave = arrive + dwell_s
-    total = leave[-1]
-    t = _TICK_S * np.arange(int(np.ceil(total / _TICK_S)) + 1, dtype=np.float64)
-    cell = np.clip(np.searchsorted(leave, t, side="right") - 1, 0, len(duration) - 1)
-    since = np.clip(t - leave[cell], 0.0, duration[cell])
-    acceleration = (speed[1:] - speed[:-1]) / duration
-    arc = heading.arc_m[cell] + speed[cell] * since + 0.5 * acceleration[cell] * since**2
-    going = (t >= leave[cell]) & (t <= leave[cell] + duration[cell])
-    return np.minimum(arc, heading.arc_m[-1]), np.where(going, speed[cell] + acceleration[cell] * since, 0.0)
+    cells = len(arc_m) - 1
+    leave = np.empty(cells + 1)
+    leave[0] = dwell_s[0]
+    for i in range(cells):
+        leave[i + 1] = leave[i] + 2.0 * (arc_m[i + 1] - arc_m[i]) / (speed[i] + speed[i + 1]) + dwell_s[i + 1]
+    count = int(np.ceil(leave[-1] / _TICK_S)) + 1
+    arc, rate = np.empty(count), np.zeros(count)
+    cell = 0
+    for k in range(count):
+        while cell < cells - 1 and leave[cell + 1] <= k * _TICK_S:
+            cell += 1
+        duration = leave[cell + 1] - dwell_s[cell + 1] - leave[cell]
+        since = k * _TICK_S - leave[cell]
+        going = min(max(since, 0.0), duration)
+        acceleration = (speed[cell + 1] - speed[cell]) / duration
+        arc[k] = min(arc_m[cell] + speed[cell] * going + 0.5 * acceleration * going**2, arc_m[-1])
+        if 0.0 <= since <= duration:
+            rate[k] = speed[cell] + acceleration * going
+    return arc, rate
 
 
-def _smoothed(arc_m: NDArray[np.float64], speed_mps: NDArray[np.float64], smoothing_s: float) -> Clock:
-    """Averages arc length over time: speed and acceleration stay within their limits, the jerk gets one."""
-    half = max(round(0.5 * smoothing_s / _TICK_S), 1)
-    arc = np.concatenate([np.full(2 * half, arc_m[0]), arc_m, np.full(2 * half, arc_m[-1])])
-    speed = np.concatenate([np.zeros(2 * half), speed_mps, np.zeros(2 * half)])
-    window = 2 * half * _TICK_S
-    # Trapezoids between the ticks, so that their differences are exactly the speed.
-    total = np.concatenate([[0.0], np.cumsum(0.5 * (arc[1:] + arc[:-1]))]) * _TICK_S
-    mean = (total[2 * half :] - total[: -2 * half]) / window
-    rate = (arc[2 * half :] - arc[: -2 * half]) / window
-    change = (speed[2 * half :] - speed[: -2 * half]) / window
-    mean = np.maximum.accumulate(np.clip(mean, arc_m[0], arc_m[-1]))
-    return Clock(
-        t_s=_TICK_S * np.arange(len(mean), dtype=np.float64), arc_m=mean, speed_mps=rate, acceleration_mps2=change
-    )
+@numba.njit(cache=True, nogil=True)
+def _smoothed(arc_m, speed_mps, half):
+    """Returns arc length, its rate and the change of that, averaged over `half` ticks to both sides.
+
+    Speed and acceleration stay within their limits, the jerk gets one.
+    """
+    last = len(arc_m) - 1
+    count = len(arc_m) + 2 * half
+    mean, rate, change = np.empty(count), np.empty(count), np.empty(count)
+    window = 2 * half
+    total, highest = 0.5 * window * (arc_m[0] + arc_m[0]), arc_m[0]
+    for k in range(count):
+        # The window of tick k reaches from `old` to `new`, at rest before the first tick and after the last.
+        old, new = min(max(k - window, 0), last), min(k, last)
+        if k > 0:
+            # Trapezoids between the ticks, so that their differences are exactly the speed.
+            before = min(k - 1, last), min(max(k - 1 - window, 0), last)
+            total += 0.5 * (arc_m[before[0]] + arc_m[new]) - 0.5 * (arc_m[before[1]] + arc_m[old])
+        highest = max(highest, min(total / window, arc_m[-1]))
+        mean[k] = highest
+        rate[k] = (arc_m[new] - arc_m[old]) / (window * _TICK_S)
+        moving = (speed_mps[k] if k <= last else 0.0) - (speed_mps[k - window] if k >= window else 0.0)
+        change[k] = moving / (window * _TICK_S)
+    return mean, rate, change

@@ -4,26 +4,49 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
 from walk_trajopt.polyline import interpolate
 
 
-def tangents(points: NDArray[np.float64], knots: NDArray[np.float64]) -> NDArray[np.float64]:
+@numba.njit(cache=True, nogil=True)
+def tangents(points, knots):
     """Returns derivatives (n, k) of the curve through `points` (n, k) at rising `knots` (n,).
 
     They are those of the parabola through each point and its two neighbours, so a moved point changes the curve no
     farther than two spans away.
     """
-    if len(points) < 3:
-        return np.repeat((points[-1:] - points[:1]) / (knots[-1] - knots[0]), len(points), axis=0)
-    h = np.diff(knots)[:, None]
-    slope = np.diff(points, axis=0) / h
-    inner = (slope[:-1] * h[1:] + slope[1:] * h[:-1]) / (h[:-1] + h[1:])
-    first = 1.5 * slope[:1] - 0.5 * inner[:1]
-    last = 1.5 * slope[-1:] - 0.5 * inner[-1:]
-    return np.concatenate([first, inner, last])
+    last = len(points) - 1
+    out = np.empty(points.shape)
+    slope = (points[1] - points[0]) / (knots[1] - knots[0])
+    if last == 1:
+        out[0] = out[1] = slope
+        return out
+    first = slope
+    for i in range(1, last):
+        before, ahead = knots[i] - knots[i - 1], knots[i + 1] - knots[i]
+        following = (points[i + 1] - points[i]) / ahead
+        out[i] = (slope * ahead + following * before) / (before + ahead)
+        slope = following
+    out[0] = 1.5 * first - 0.5 * out[1]
+    out[last] = 1.5 * slope - 0.5 * out[last - 1]
+    return out
+
+
+@numba.njit(cache=True, nogil=True)
+def slopes(t, values):
+    """Returns the derivative (m, k) of `values` (m, k) at rising times (m,), from parabolas; lines at the ends."""
+    out = np.empty(values.shape)
+    out[0] = (values[1] - values[0]) / (t[1] - t[0])
+    out[-1] = (values[-1] - values[-2]) / (t[-1] - t[-2])
+    for i in range(1, len(t) - 1):
+        before, ahead = t[i] - t[i - 1], t[i + 1] - t[i]
+        for c in range(values.shape[1]):
+            up, down = (values[i + 1, c] - values[i, c]) / ahead, (values[i, c] - values[i - 1, c]) / before
+            out[i, c] = (up * before + down * ahead) / (before + ahead)
+    return out
 
 
 def refine(
@@ -40,28 +63,50 @@ def refine(
         The polyline (m, 3), which has all of `points` in it, and for each of its vertices the place among the points
         as a rising number (m,): 2.5 is halfway between points[2] and points[3].
     """
-    chord = np.maximum(np.linalg.norm(np.diff(points, axis=0), axis=1), 1e-6) ** exponent
-    knots = np.concatenate([[0.0], np.cumsum(chord)])
+    curve, place = _refined(np.ascontiguousarray(points), chord_error_m, exponent)
+    return curve, place
+
+
+@numba.njit(cache=True, nogil=True)
+def _refined(points, chord_error, exponent):
+    n = len(points)
+    knots = np.zeros(n)
+    for i in range(n - 1):
+        knots[i + 1] = knots[i] + max(np.sqrt(((points[i + 1] - points[i]) ** 2).sum()), 1e-6) ** exponent
     derivative = tangents(points, knots)
-    p0, p1 = points[:-1], points[1:]
-    m0, m1 = derivative[:-1] * chord[:, None], derivative[1:] * chord[:, None]
-    # The second derivative of a cubic is linear, so its ends bound it; what lies along the chord bends nothing.
-    along = (p1 - p0) / np.maximum(np.linalg.norm(p1 - p0, axis=1), 1e-9)[:, None]
-    bend = np.zeros(len(p0))
-    for second in (6 * (p1 - p0) - 4 * m0 - 2 * m1, -6 * (p1 - p0) + 2 * m0 + 4 * m1):
-        across = second - (second * along).sum(axis=1)[:, None] * along
-        bend = np.maximum(bend, np.linalg.norm(across, axis=1))
-    pieces = np.maximum(np.ceil(np.sqrt(bend / (8.0 * chord_error_m))), 1.0).astype(np.int64)
-    span = np.repeat(np.arange(len(pieces)), pieces)
-    u = (np.arange(len(span)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[span]
-    t = u[:, None]
-    curve = (
-        p0[span] * (1 + 2 * t) * (1 - t) ** 2
-        + m0[span] * t * (1 - t) ** 2
-        + p1[span] * t * t * (3 - 2 * t)
-        + m1[span] * t * t * (t - 1)
-    )
-    return np.concatenate([curve, points[-1:]]), np.append(span + u, len(points) - 1.0)
+    pieces = np.empty(n - 1, np.int64)
+    for i in range(n - 1):
+        bend = _bend(points[i], points[i + 1], derivative[i], derivative[i + 1], knots[i + 1] - knots[i])
+        pieces[i] = max(np.ceil(np.sqrt(bend / (8.0 * chord_error))), 1.0)
+    curve, place = np.empty((pieces.sum() + 1, 3)), np.empty(pieces.sum() + 1)
+    row = 0
+    for i in range(n - 1):
+        chord = knots[i + 1] - knots[i]
+        for k in range(pieces[i]):
+            t = k / pieces[i]
+            a, b = (1 + 2 * t) * (1 - t) ** 2, t * (1 - t) ** 2 * chord
+            c, d = t * t * (3 - 2 * t), t * t * (t - 1) * chord
+            for e in range(3):
+                ends = a * points[i, e] + c * points[i + 1, e]
+                curve[row, e] = ends + b * derivative[i, e] + d * derivative[i + 1, e]
+            place[row] = i + t
+            row += 1
+    curve[row], place[row] = points[-1], n - 1.0
+    return curve, place
+
+
+@numba.njit(cache=True, nogil=True)
+def _bend(p0, p1, d0, d1, chord):
+    """Returns a bound of a cubic's second derivative across its chord: it is linear, so its ends bound it."""
+    side = p1 - p0
+    along = side / max(np.sqrt((side**2).sum()), 1e-9)
+    bend = 0.0
+    for near, far in ((d0, d1), (d1, d0)):
+        second = 6.0 * side - 4.0 * chord * near - 2.0 * chord * far
+        # What lies along the chord bends nothing.
+        across = second - (second * along).sum() * along
+        bend = max(bend, np.sqrt((across**2).sum()))
+    return bend
 
 
 def rounded(

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import dataclasses
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
+
+from walk_trajopt.smoothing import gaussian
 
 GRID_M = 0.02  # between two values; a hundredth of a second at walking speed
 
@@ -27,6 +29,7 @@ class Heading:
 _LEAST_CELLS = 9  # a path of centimetres still has somewhere to speed up and slow down
 _BODY_M = 0.03  # over which a bend is averaged, so that the grid sees every corner
 _CORNER_M = 0.06  # a polyline's corner is taken as a bend over so much of its sides, or over half a shorter side
+_LEVEL = 1e-3  # horizontal share of a direction below which it is straight up or down
 
 
 def heading_of(
@@ -43,42 +46,52 @@ def heading_of(
     count = int(np.ceil(arc_m[-1] / GRID_M)) + 1
     grid = np.linspace(0.0, arc_m[-1], max(count, _LEAST_CELLS))
     spacing = float(grid[1])
-    knots, direction = _directions(points, arc_m)
-    flat = np.hypot(direction[:, 0], direction[:, 1])
-    yaw = np.arctan2(direction[:, 1], direction[:, 0])
-    level = flat > 1e-3
-    if not level.all():
-        # Straight up or down there is no direction: the one before, or the first there is, goes on.
-        known = np.flatnonzero(level)
-        yaw = (
-            yaw[known[np.maximum(np.searchsorted(known, np.arange(len(yaw)), side="right") - 1, 0)]]
-            if len(known)
-            else 0 * yaw
-        )
-    along = np.interp(grid, knots, np.unwrap(yaw))
-    slope = np.interp(grid, knots, np.arctan2(direction[:, 2], flat))
-    body = _BODY_M / spacing
-    turned, tilted = (gaussian_filter1d(a, body, mode="nearest") for a in (along, slope))
-    look = gaussian_filter1d(along, smoothing_m / spacing, mode="nearest")
-    return Heading(
-        spacing_m=spacing,
-        arc_m=grid,
-        yaw=turned,
-        look=np.interp(grid + lookahead_m, grid, look),
-        bend=np.hypot(np.gradient(turned, spacing) * np.cos(tilted), np.gradient(tilted, spacing)),
-    )
+    yaw, look, bend = _on_grid(points, arc_m, grid, spacing, lookahead_m, smoothing_m)
+    return Heading(spacing_m=spacing, arc_m=grid, yaw=yaw, look=look, bend=bend)
 
 
-def _directions(
-    points: NDArray[np.float64], arc_m: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Returns arc lengths (k,) and there the directions (k, 3) of the smooth curve for which the polyline stands.
+@numba.njit(cache=True, nogil=True)
+def _on_grid(points, arc_m, grid, spacing, lookahead, smoothing):
+    knots, direction, slope = _directions(points, arc_m)
+    along, rise = np.interp(grid, knots, direction), np.interp(grid, knots, slope)
+    turned, tilted = gaussian(along, _BODY_M / spacing), gaussian(rise, _BODY_M / spacing)
+    look = np.interp(grid + lookahead, grid, gaussian(along, smoothing / spacing))
+    bend = np.hypot(gradient(turned, spacing) * np.cos(tilted), gradient(tilted, spacing))
+    return turned, look, bend
+
+
+@numba.njit(cache=True, nogil=True)
+def _directions(points, arc_m):
+    """Returns arc lengths (k,) and there yaw, unwrapped, and slope of the smooth curve for which the polyline stands.
 
     Between them the direction goes on linearly: along each side it is that of the side, but for its ends, where it
-    turns into the next one.
+    turns into the next one. Straight up or down there is no yaw: the one before, or the first there is, goes on.
     """
-    side = np.diff(arc_m)
-    near = np.minimum(_CORNER_M, 0.5 * side)
-    unit = np.diff(points, axis=0) / side[:, None]
-    knots = np.column_stack([arc_m[:-1] + near, arc_m[1:] - near]).ravel()
-    return knots, np.repeat(unit, 2, axis=0)
+    sides = len(arc_m) - 1
+    knots, yaw, slope = np.empty(2 * sides), np.empty(2 * sides), np.empty(2 * sides)
+    last, first = 0.0, -1
+    for i in range(sides):
+        side = arc_m[i + 1] - arc_m[i]
+        near = min(_CORNER_M, 0.5 * side)
+        x, y, z = (points[i + 1] - points[i]) / side
+        flat = np.hypot(x, y)
+        if flat > _LEVEL:
+            turn = np.arctan2(y, x) - last
+            last += turn - 2.0 * np.pi * np.rint(turn / (2.0 * np.pi)) if first >= 0 else turn
+            first = i if first < 0 else first
+        knots[2 * i], knots[2 * i + 1] = arc_m[i] + near, arc_m[i + 1] - near
+        yaw[2 * i : 2 * i + 2] = last
+        slope[2 * i : 2 * i + 2] = np.arctan2(z, flat)
+    if first > 0:
+        yaw[: 2 * first] = yaw[2 * first]
+    return knots, yaw, slope
+
+
+@numba.njit(cache=True, nogil=True)
+def gradient(values, spacing):
+    """Returns central differences (n,), one-sided at the ends; n is at least 2."""
+    out = np.empty(len(values))
+    out[0], out[-1] = (values[1] - values[0]) / spacing, (values[-1] - values[-2]) / spacing
+    for i in range(1, len(values) - 1):
+        out[i] = (values[i + 1] - values[i - 1]) / (2.0 * spacing)
+    return out

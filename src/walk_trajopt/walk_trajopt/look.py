@@ -13,6 +13,9 @@ from walk_trajopt.clock import Clock
 from walk_trajopt.config import TimingConfig
 from walk_trajopt.heading import Heading
 
+_ARM_M = 0.5  # a target nearer than this is not turned to
+_STANDING_TICKS = 20  # a rest shorter than this is walking
+
 
 def look_angles(
     heading: Heading,
@@ -29,48 +32,85 @@ def look_angles(
         clock: The times, k ticks.
         positions: (k, 3) of the eye at the ticks [m].
         targets: (M, 3) what to look at near each keypoint; nan for nothing [m].
-        target_arc_m: (M,) arc lengths of the keypoints.
+        target_arc_m: (M,) arc lengths of the keypoints, rising.
         config: Limits, reach and share of the targets.
     """
     ahead = np.interp(clock.arc_m, heading.arc_m, heading.look)
     yaw, pitch = ahead.copy(), np.zeros_like(ahead)
     for k in np.flatnonzero(np.isfinite(targets).all(axis=1)):
-        weight = _weight(clock, target_arc_m, int(k), config)
-        near = np.flatnonzero(weight)
-        if len(near) == 0:
-            continue
-        to_target = targets[k] - positions[near]
-        flat = np.hypot(to_target[:, 0], to_target[:, 1])
-        # Whoever walks through a target sees it swing round; within arm's length the direction is held.
-        held = np.maximum(flat, 1e-9) < 0.5
-        bearing = np.arctan2(to_target[:, 1], to_target[:, 0])
-        if held.all():
-            continue
-        bearing = np.interp(np.arange(len(near)), np.flatnonzero(~held), np.unwrap(bearing[~held]))
-        # The side on which to turn is chosen once, where the target counts most.
-        middle = int(np.argmax(weight[near]))
-        turns = np.round((ahead[near[middle]] - bearing[middle]) / (2 * np.pi))
-        yaw[near] += weight[near] * (bearing + 2 * np.pi * turns - ahead[near])
-        rise = np.clip(np.arctan2(to_target[:, 2], np.maximum(flat, 0.5)), -config.max_pitch_rad, config.max_pitch_rad)
-        pitch[near] += weight[near] * rise
+        near, reach = _near(clock.arc_m, target_arc_m, int(k), config.look_at_m)
+        weight = _weights(clock.arc_m[near], clock.speed_mps[near], float(target_arc_m[k]), reach, config.look_at_share)
+        _turn(positions[near], targets[k], weight, config.max_pitch_rad, ahead[near], yaw[near], pitch[near])
     return _limited(yaw, clock, config), _limited(pitch, clock, config)
 
 
-def _weight(clock: Clock, target_arc_m: NDArray[np.float64], k: int, config: TimingConfig) -> NDArray[np.float64]:
-    """Returns how much keypoint `k` counts at each tick, 0 to 1; keypoints do not overlap."""
-    here = target_arc_m[k]
-    before = min([config.look_at_m, *(0.5 * (here - target_arc_m[:k]))[-1:]])
-    after = min([config.look_at_m, *(0.5 * (target_arc_m[k + 1 :] - here))[:1]])
-    reach = np.where(clock.arc_m < here, max(before, 1e-6), max(after, 1e-6))
-    share = np.where(np.abs(clock.arc_m - here) < 0.01, _dwell_share(clock, here, config), config.look_at_share)
-    bump = 0.5 * (1.0 + np.cos(np.pi * np.clip((clock.arc_m - here) / reach, -1.0, 1.0)))
-    return np.asarray(share * bump)
+def _near(
+    arc_m: NDArray[np.float64], target_arc_m: NDArray[np.float64], k: int, look_at_m: float
+) -> tuple[slice, tuple[float, float]]:
+    """Returns the ticks at which keypoint `k` counts, and how far it reaches back and ahead: never over another."""
+    here = float(target_arc_m[k])
+    back = min(look_at_m, 0.5 * (here - float(target_arc_m[k - 1]))) if k > 0 else look_at_m
+    on = min(look_at_m, 0.5 * (float(target_arc_m[k + 1]) - here)) if k + 1 < len(target_arc_m) else look_at_m
+    back, on = max(back, 1e-6), max(on, 1e-6)
+    begin = int(arc_m.searchsorted(here - back, side="right"))
+    return slice(begin, int(arc_m.searchsorted(here + on, side="right"))), (back, on)
 
 
-def _dwell_share(clock: Clock, arc_m: float, config: TimingConfig) -> float:
-    """Returns the share at the keypoint itself: full where the walker stands there."""
-    standing = (np.abs(clock.arc_m - arc_m) < 1e-3) & (clock.speed_mps < 1e-3)
-    return 1.0 if np.count_nonzero(standing) > 20 else config.look_at_share
+@numba.njit(cache=True, nogil=True)
+def _weights(arc_m, speed_mps, here_m, reach_m, share):
+    """Returns how much a keypoint counts at each tick (k,), 0 to 1: 1 only where the walker stands there."""
+    standing = 0
+    for i in range(len(arc_m)):
+        if abs(arc_m[i] - here_m) < 1e-3 and speed_mps[i] < 1e-3:
+            standing += 1
+    weight = np.empty(len(arc_m))
+    for i in range(len(arc_m)):
+        off = arc_m[i] - here_m
+        part = off / (reach_m[0] if off < 0.0 else reach_m[1])
+        here = standing > _STANDING_TICKS and abs(off) < 0.01
+        weight[i] = (1.0 if here else share) * 0.5 * (1.0 + np.cos(np.pi * min(max(part, -1.0), 1.0)))
+    return weight
+
+
+@numba.njit(cache=True, nogil=True)
+def _turn(positions, target, weight, max_pitch, ahead, yaw, pitch):
+    """Turns yaw and pitch (k,) from `ahead` towards a target, as far as the weights (k,) say."""
+    bearing, known = _bearings(positions, target)
+    if not known:
+        return
+    # The side on which to turn is chosen once, where the target counts most.
+    middle = np.argmax(weight)
+    side = 2.0 * np.pi * np.rint((ahead[middle] - bearing[middle]) / (2.0 * np.pi))
+    for i in range(len(weight)):
+        x, y, z = target[0] - positions[i, 0], target[1] - positions[i, 1], target[2] - positions[i, 2]
+        rise = np.arctan2(z, max(np.sqrt(x * x + y * y), _ARM_M))
+        yaw[i] += weight[i] * (bearing[i] + side - ahead[i])
+        pitch[i] += weight[i] * min(max(rise, -max_pitch), max_pitch)
+
+
+@numba.njit(cache=True, nogil=True)
+def _bearings(positions, target):
+    """Returns the direction (k,) to a target, unwrapped, and whether it is ever known.
+
+    Whoever walks through a target sees it swing round: within arm's length it goes over evenly from the last
+    direction known to the next.
+    """
+    bearing, last = np.empty(len(positions)), -1
+    for i in range(len(positions)):
+        x, y = target[0] - positions[i, 0], target[1] - positions[i, 1]
+        if x * x + y * y < _ARM_M**2:
+            continue
+        bearing[i] = np.arctan2(y, x)
+        if last < 0:
+            bearing[:i] = bearing[i]
+        else:
+            bearing[i] -= 2.0 * np.pi * np.rint((bearing[i] - bearing[last]) / (2.0 * np.pi))
+            for j in range(last + 1, i):
+                bearing[j] = bearing[last] + (bearing[i] - bearing[last]) * (j - last) / (i - last)
+        last = i
+    if last >= 0:
+        bearing[last:] = bearing[last]
+    return bearing, last >= 0
 
 
 def _limited(angle: NDArray[np.float64], clock: Clock, config: TimingConfig) -> NDArray[np.float64]:
@@ -98,12 +138,13 @@ def _envelopes(low: NDArray[np.float64], high: NDArray[np.float64], step: float)
         high[i] = max(high[i], high[i + 1] - step)
 
 
-def quaternions_xyzw(yaw: NDArray[np.float64], pitch: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Returns quaternions (k, 4) whose x axis looks along yaw and, for a positive pitch, up; without roll.
+@numba.njit(cache=True, nogil=True)
+def quaternion_xyzw(yaw, pitch):
+    """Returns the quaternion whose x axis looks along yaw and, for a positive pitch, up; without roll.
 
     The yaw must be unwrapped: half of it goes into the quaternion, so that neighbours never flip their sign.
     """
     cy, sy = np.cos(0.5 * yaw), np.sin(0.5 * yaw)
     # Looking up turns about −y in a frame whose x axis is ahead and whose z axis is up.
     cp, sp = np.cos(-0.5 * pitch), np.sin(-0.5 * pitch)
-    return np.column_stack([-sy * sp, cy * sp, sy * cp, cy * cp])
+    return -sy * sp, cy * sp, sy * cp, cy * cp

@@ -17,7 +17,7 @@ from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine
 from walk_trajopt.objectives import Setting
 from walk_trajopt.path import OptimisedPath, Stretch, read_only
-from walk_trajopt.polyline import Polyline, as_polyline_points
+from walk_trajopt.polyline import Polyline, arc_lengths, as_polyline_points
 from walk_trajopt.problem import Problem
 from walk_trajopt.repair import Mended, Way, colliding, repair
 from walk_trajopt.resample import keypoint_arcs, point_count
@@ -139,7 +139,7 @@ class Optimiser:
         """Returns the path of the present state, its stretches named by its own arc length."""
         state = self.state
         points, tour_m = state.way.points, state.way.tour_m
-        arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+        arc = arc_lengths(points)
         return OptimisedPath(
             points=read_only(points),
             keypoint_index=np.abs(tour_m[None, :] - state.keypoint_m[:, None]).argmin(axis=1).astype(np.int64),

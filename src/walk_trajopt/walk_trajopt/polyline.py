@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -23,7 +24,7 @@ class Polyline:
         if arc_m is None:
             # Vertices on top of each other would have one arc length between them.
             points = points[np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-9])]
-            arc_m = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+            arc_m = arc_lengths(points)
         self.points = points
         self.arc_m = arc_m
 
@@ -34,14 +35,43 @@ class Polyline:
 
     def at(self, arc_m: ArrayLike) -> NDArray[np.float64]:
         """Returns the points (N, 3) at arc lengths (N,), the ends beyond the ends."""
-        return interpolate(np.asarray(arc_m, np.float64), self.arc_m, self.points)
+        return np.asarray(interpolate(np.atleast_1d(np.asarray(arc_m, np.float64)), self.arc_m, self.points))
 
 
-def interpolate(
-    where: NDArray[np.float64], knots: NDArray[np.float64], values: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Returns rows (N, k) of `values` (L, k), given at rising `knots` (L,), at `where` (N,), linear between them."""
-    return np.column_stack([np.interp(where, knots, values[:, k]) for k in range(values.shape[1])])
+@numba.njit(cache=True, nogil=True)
+def arc_lengths(points):
+    """Returns the length along a polyline (n, 3) up to each of its points (n,)."""
+    out = np.zeros(len(points))
+    for i in range(1, len(points)):
+        total = 0.0
+        for c in range(points.shape[1]):
+            total += (points[i, c] - points[i - 1, c]) ** 2
+        out[i] = out[i - 1] + np.sqrt(total)
+    return out
+
+
+@numba.njit(cache=True, nogil=True)
+def interpolate(where, knots, values):
+    """Returns rows (N, k) of `values` (L, k), given at rising `knots` (L,), at `where` (N,), linear between them.
+
+    Beyond the ends they are those at the ends. Fastest where `where` rises, too.
+    """
+    out = np.empty((len(where), values.shape[1]))
+    cell, last = 0, len(knots) - 1
+    for i in range(len(where)):
+        if where[i] <= knots[0]:
+            out[i] = values[0]
+        elif where[i] >= knots[last]:
+            out[i] = values[last]
+        else:
+            if where[i] < knots[cell]:
+                cell = np.searchsorted(knots, where[i], side="right") - 1
+            while knots[cell + 1] <= where[i]:
+                cell += 1
+            share = (where[i] - knots[cell]) / (knots[cell + 1] - knots[cell])
+            for c in range(values.shape[1]):
+                out[i, c] = values[cell, c] + share * (values[cell + 1, c] - values[cell, c])
+    return out
 
 
 def as_polyline_points(name: str, points: ArrayLike, at_least: int = 2) -> NDArray[np.float64]:

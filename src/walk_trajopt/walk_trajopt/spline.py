@@ -14,7 +14,7 @@ from walk_trajopt.check import PathCheck, colliding_runs
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine
 from walk_trajopt.path import OptimisedPath, Stretch, read_only
-from walk_trajopt.polyline import as_polyline_points
+from walk_trajopt.polyline import arc_lengths, as_polyline_points
 
 KINDS = ("catmull_rom", "b_spline")
 _STEP_M = 0.1  # between the points of a B-spline before it is refined
@@ -43,7 +43,7 @@ def spline_path(
     if len(through) < 2:
         raise ParameterError("keypoints", "all at one place", "at least 2 different places")
     points, place = _curve(through, config.chord_error_m, kind)
-    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    arc = arc_lengths(points)
     free = PathCheck(building.geometry, building.walker).segments_free(points)
     at = place[np.searchsorted(arc, [m for run in colliding_runs(free, arc, 0.5) for m in run])].reshape(-1, 2)
     colliding = tuple(

@@ -4,19 +4,21 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from walk_building.errors import ParameterError
 from walk_trajopt.clock import Clock, clock_of
 from walk_trajopt.config import TimingConfig
-from walk_trajopt.curve import tangents
+from walk_trajopt.curve import slopes, tangents
 from walk_trajopt.heading import heading_of
-from walk_trajopt.look import look_angles, quaternions_xyzw
+from walk_trajopt.look import look_angles, quaternion_xyzw
 from walk_trajopt.path import OptimisedPath, read_only
-from walk_trajopt.polyline import interpolate
+from walk_trajopt.polyline import arc_lengths, interpolate
 from walk_trajopt.trajectory import Trajectory
 
+_SAME_M = 1e-6  # points nearer than this are one
 _APART_S = 1e-3  # samples nearer than this to a point of the path are left out
 
 
@@ -38,8 +40,9 @@ def time_path(
         ParameterError: A path without length, arrays of another size, or a duration that cannot be met.
     """
     config = config or TimingConfig()
-    points, arc = _distinct(path.points)
-    keypoint_m = _arc(path.points)[path.keypoint_index]
+    whole = arc_lengths(path.points)
+    points, arc = _distinct(path.points, whole)
+    keypoint_m = whole[path.keypoint_index]
     targets = _per_keypoint("look_at", look_at, (len(keypoint_m), 3), np.nan)
     dwell = _per_keypoint("dwell_s", dwell_s, (len(keypoint_m),), config.dwell_s)
     if not (np.isfinite(dwell) & (dwell >= 0.0)).all():
@@ -48,22 +51,22 @@ def time_path(
     stays = dwell > 0.0
     clock = clock_of(heading, keypoint_m[stays], dwell[stays], config)
     eyes = interpolate(clock.arc_m, arc, points)
-    yaw, pitch = look_angles(heading, clock, eyes, targets, keypoint_m, config)
-    t, at = _samples(clock, arc, config.sample_s)
-    return _trajectory(points, arc, clock, t, at, np.interp(t, clock.t_s, yaw), np.interp(t, clock.t_s, pitch))
+    look = look_angles(heading, clock, eyes, targets, keypoint_m, config)
+    samples = _samples(clock.t_s, clock.arc_m, arc, config.sample_s)
+    return _trajectory(points, arc, clock, look, samples)
 
 
-def _arc(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-
-
-def _distinct(points: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _distinct(
+    points: NDArray[np.float64], arc_m: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Returns the points without repeated ones, and their arc lengths."""
-    keep = np.concatenate([[True], np.linalg.norm(np.diff(points, axis=0), axis=1) > 1e-6])
-    points = points[keep]
+    step = np.diff(arc_m)
+    if len(points) < 2 or step.min() <= _SAME_M:
+        points = points[np.concatenate([[True], step > _SAME_M])]
+        arc_m = arc_lengths(points)
     if len(points) < 2:
         raise ParameterError("path", f"{len(points)} different points", "at least 2")
-    return points, _arc(points)
+    return points, arc_m
 
 
 def _per_keypoint(name: str, values: ArrayLike | None, shape: tuple[int, ...], default: float) -> NDArray[np.float64]:
@@ -75,51 +78,95 @@ def _per_keypoint(name: str, values: ArrayLike | None, shape: tuple[int, ...], d
     return array
 
 
-def _samples(
-    clock: Clock, arc_m: NDArray[np.float64], step_s: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+@numba.njit(cache=True, nogil=True)
+def _samples(clock_t, clock_arc, arc_m, step_s):
     """Returns rising times and the arc lengths there: the moments at the points of the path, evenly divided between."""
-    # Arc length does not rise while the walker stands; the first moment at a place is the one that counts.
-    rising = np.concatenate([[True], np.diff(clock.arc_m) > 1e-12])
-    passed = np.interp(arc_m[1:-1], clock.arc_m[rising], clock.t_s[rising])
-    inner = (passed > clock.t_s[0] + _APART_S) & (passed < clock.t_s[-1] - _APART_S)
-    inner &= np.diff(passed, prepend=-np.inf) > _APART_S
-    marks = np.concatenate([clock.t_s[:1], passed[inner], clock.t_s[-1:]])
-    places = np.concatenate([arc_m[:1], arc_m[1:-1][inner], arc_m[-1:]])
-    pieces = np.maximum(np.ceil(np.diff(marks) / step_s - 1e-9), 1).astype(np.int64)
-    gap = np.repeat(np.arange(len(pieces)), pieces)
-    share = (np.arange(len(gap)) - np.repeat(np.cumsum(pieces) - pieces, pieces)) / pieces[gap]
-    t = np.append(marks[gap] + share * np.diff(marks)[gap], marks[-1])
-    at = np.interp(t, clock.t_s, clock.arc_m)
-    # At the points themselves exactly, so that no sample cuts a corner.
-    at[np.append(share == 0.0, True)] = places
-    return t, np.maximum.accumulate(at)
+    marks, places, last = np.empty(len(arc_m)), np.empty(len(arc_m)), 0
+    marks[0], places[0] = clock_t[0], arc_m[0]
+    tick = 0
+    for i in range(1, len(arc_m) - 1):
+        # Arc length does not rise while the walker stands; the first moment at a place is the one that counts.
+        while tick < len(clock_arc) - 2 and clock_arc[tick + 1] < arc_m[i]:
+            tick += 1
+        gone = clock_arc[tick + 1] - clock_arc[tick]
+        share = min(max((arc_m[i] - clock_arc[tick]) / gone, 0.0), 1.0) if gone > 0.0 else 0.0
+        passed = clock_t[tick] + share * (clock_t[tick + 1] - clock_t[tick])
+        if marks[last] + _APART_S < passed < clock_t[-1] - _APART_S:
+            last += 1
+            marks[last], places[last] = passed, arc_m[i]
+    last += 1
+    marks[last], places[last] = clock_t[-1], arc_m[-1]
+    return _divided(marks[: last + 1], places[: last + 1], clock_t, clock_arc, step_s)
+
+
+@numba.njit(cache=True, nogil=True)
+def _divided(marks, places, clock_t, clock_arc, step_s):
+    pieces = np.maximum(np.ceil(np.diff(marks) / step_s - 1e-9), 1.0).astype(np.int64)
+    t, at = np.empty(pieces.sum() + 1), np.empty(pieces.sum() + 1)
+    row, tick = 0, clock_t[1] - clock_t[0]
+    for i in range(len(pieces)):
+        # At the points themselves exactly, so that no sample cuts a corner.
+        t[row], at[row] = marks[i], places[i]
+        for k in range(1, pieces[i]):
+            t[row + k] = marks[i] + k / pieces[i] * (marks[i + 1] - marks[i])
+            cell = min(int(t[row + k] / tick), len(clock_t) - 2)
+            share = (t[row + k] - clock_t[cell]) / tick
+            there = clock_arc[cell] + share * (clock_arc[cell + 1] - clock_arc[cell])
+            at[row + k] = min(max(there, at[row + k - 1]), places[i + 1])
+        row += pieces[i]
+    t[row], at[row] = marks[-1], places[-1]
+    return t, at
 
 
 def _trajectory(
     points: NDArray[np.float64],
     arc_m: NDArray[np.float64],
     clock: Clock,
-    t_s: NDArray[np.float64],
-    at_m: NDArray[np.float64],
-    yaw: NDArray[np.float64],
-    pitch: NDArray[np.float64],
+    look: tuple[NDArray[np.float64], NDArray[np.float64]],
+    samples: tuple[NDArray[np.float64], NDArray[np.float64]],
 ) -> Trajectory:
-    direction = interpolate(at_m, arc_m, tangents(points, arc_m))
-    direction /= np.maximum(np.linalg.norm(direction, axis=1), 1e-9)[:, None]
-    speed = np.interp(t_s, clock.t_s, clock.speed_mps)
-    velocities = speed[:, None] * direction
-    # Along the path the clock knows the acceleration; across it, the direction's change does.
-    across = np.gradient(direction, t_s, axis=0) * speed[:, None]
-    along = np.interp(t_s, clock.t_s, clock.acceleration_mps2)[:, None] * direction
+    t_s, at_m = samples
+    ticks = np.column_stack([clock.speed_mps, clock.acceleration_mps2, *look])
+    rows = _rows(points, arc_m, tangents(points, arc_m), clock.t_s[1], ticks, t_s, at_m)
+    positions, velocities, accelerations, quat_xyzw, stop = rows
     return Trajectory(
         t_s=read_only(t_s),
-        positions=read_only(interpolate(at_m, arc_m, points)),
+        positions=read_only(positions),
         velocities=read_only(velocities),
-        accelerations=read_only(along + across),
-        quat_xyzw=read_only(quaternions_xyzw(yaw, pitch)),
-        stop=_locked(speed < 1e-3),
+        accelerations=read_only(accelerations),
+        quat_xyzw=read_only(quat_xyzw),
+        stop=_locked(stop),
     )
+
+
+@numba.njit(cache=True, nogil=True)
+def _rows(points, arc_m, tangent, tick_s, ticks, t_s, at_m):
+    """Returns positions, velocities, accelerations (m, 3), quaternions (m, 4) and stops (m,).
+
+    Args:
+        points: (n, 3) the path.
+        arc_m: (n,) of each, rising.
+        tangent: (n, 3) direction at each.
+        tick_s: Time between ticks.
+        ticks: (k, 4) speed, acceleration, yaw, pitch at each tick.
+        t_s: (m,) rising.
+        at_m: (m,) arc length at each time, rising.
+    """
+    positions, direction = interpolate(at_m, arc_m, points), interpolate(at_m, arc_m, tangent)
+    now = interpolate(t_s, tick_s * np.arange(len(ticks)), ticks)
+    quat = np.empty((len(t_s), 4))
+    for i in range(len(t_s)):
+        x, y, z = direction[i]
+        direction[i] /= max(np.sqrt(x * x + y * y + z * z), 1e-9)
+        quat[i] = quaternion_xyzw(now[i, 2], now[i, 3])
+    turning = slopes(t_s, direction)
+    velocities, accelerations = np.empty_like(direction), np.empty_like(direction)
+    for i in range(len(t_s)):
+        for c in range(3):
+            # Along the path the clock knows the acceleration; across it, the direction's change does.
+            accelerations[i, c] = turning[i, c] * now[i, 0] + now[i, 1] * direction[i, c]
+            velocities[i, c] = now[i, 0] * direction[i, c]
+    return positions, velocities, accelerations, quat, now[:, 0] < 1e-3
 
 
 def _locked(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:
