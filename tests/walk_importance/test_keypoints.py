@@ -15,7 +15,7 @@ from walk_building.errors import ParameterError
 from walk_building.pipeline import load_building
 from walk_importance.candidates import find_candidates, lower_by_cone
 from walk_importance.config import ImportanceConfig, KeypointConfig
-from walk_importance.errors import NoPlaceError, TooManyKeypointsError
+from walk_importance.errors import NoPlaceError, NoPlaceNearError, TooManyKeypointsError
 from walk_importance.importance_map import ImportanceMap
 from walk_importance.keypoints import Suggestion, snap_keypoint, suggest_keypoints
 from walk_importance.pipeline import compute_importance
@@ -149,12 +149,43 @@ def test_snapping_stays_near_and_takes_a_better_place(rooms: Building, rooms_map
     assert found.score[0] > rooms_map.at(corner[None])[0]
 
 
-def test_snapping_far_outside_takes_the_nearest_place(rooms: Building, rooms_map: ImportanceMap) -> None:
+def test_snapping_where_nothing_is_near_says_how_far_the_next_place_is(
+    rooms: Building, rooms_map: ImportanceMap
+) -> None:
     candidates = find_candidates(rooms, rooms_map)
     far = np.array([-20.0, 2.0, 1.6])
-    found = snap_keypoint(rooms, rooms_map, far, candidates=candidates)
-    distance = np.linalg.norm(candidates.eyes - far, axis=1)
-    assert np.linalg.norm(found.positions[0] - far) == distance.min()
+    with pytest.raises(NoPlaceNearError) as error:
+        snap_keypoint(rooms, rooms_map, far, candidates=candidates)
+    assert error.value.nearest_m == pytest.approx(np.linalg.norm((candidates.eyes - far)[:, :2], axis=1).min())
+    above = snap_keypoint(rooms, rooms_map, np.array([2.0, 2.0, 1.6 + 1.0]))
+    assert_standable(rooms, above)
+    with pytest.raises(NoPlaceNearError, match="nor anywhere on that storey"):
+        snap_keypoint(rooms, rooms_map, np.array([2.0, 2.0, 1.6 + 3.0]))
+
+
+def test_snapping_keeps_away_from_the_keypoints_there_are(rooms: Building, rooms_map: ImportanceMap) -> None:
+    near = np.array([2.0, 2.0, 1.6])
+    config = KeypointConfig(cone_depth=1e-6)
+    taken = np.empty((0, 3))
+    for _ in range(4):
+        found = snap_keypoint(rooms, rooms_map, near, config, taken=taken)
+        gaps = np.linalg.norm(taken - found.positions, axis=1)
+        assert (gaps >= 2 * rooms.walker.radius_m).all()
+        taken = np.concatenate([taken, found.positions])
+    everywhere = find_candidates(rooms, rooms_map).eyes
+    with pytest.raises(NoPlaceNearError):
+        snap_keypoint(rooms, rooms_map, near, config, taken=everywhere)
+
+
+def test_a_wider_snap_radius_finds_a_place_at_least_as_good(rooms: Building, rooms_map: ImportanceMap) -> None:
+    corner = np.array([0.35, 0.35, 1.6])
+    flat = KeypointConfig(cone_depth=0.0)
+    scores = [
+        snap_keypoint(rooms, rooms_map, corner, dataclasses.replace(flat, snap_radius_m=r)).score[0]
+        for r in (0.8, 1.2, 2.0, 4.0)
+    ]
+    assert scores == sorted(scores)
+    assert scores[-1] > scores[0]
 
 
 def test_a_building_nobody_gets_into_says_so(rooms: Building, rooms_map: ImportanceMap) -> None:

@@ -191,7 +191,7 @@ def test_change_arrives_as_sent(change, quats):
     target = np.array([1.0, 2.0, 3.0]) if change is c.Change.LOOK_AT else None
     edit = c.KeypointEdit(
         kind=c.EditKind.CHANGE,
-        keypoint=-1 if change in (c.Change.INSERT, c.Change.UNDO, c.Change.REDO) else 3,
+        keypoint=-1 if change in (c.Change.INSERT, c.Change.INSERT_NEAR, c.Change.UNDO, c.Change.REDO) else 3,
         client_id="anna",
         stamp_ns=STAMP,
         position=np.arange(3.0),
@@ -206,7 +206,7 @@ def test_change_arrives_as_sent(change, quats):
     assert (got.target is None) == (target is None)
     if target is not None:
         np.testing.assert_array_equal(got.target, target)
-    if change is c.Change.INSERT:
+    if change in (c.Change.INSERT, c.Change.INSERT_NEAR):
         np.testing.assert_array_equal(got.position, edit.position)
 
 

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from walk_building.errors import WalkError
 
 
@@ -29,6 +31,30 @@ class NoPlaceError(WalkError):
             "no place in the building can be reached by the walker, so there is no keypoint; "
             "try a smaller walker, another start or outdoors"
         )
+
+
+class NoPlaceNearError(WalkError):
+    """A keypoint was asked for where there is no place to take.
+
+    Attributes:
+        radius_m: How far around it was looked.
+        nearest_m: How far off the next place on the same storey is, inf where there is none.
+    """
+
+    def __init__(self, radius_m: float, nearest_m: float) -> None:
+        self.radius_m = radius_m
+        self.nearest_m = nearest_m
+        there = f"the next one is {nearest_m:.1f} m away" if np.isfinite(nearest_m) else "nor anywhere on that storey"
+        super().__init__(
+            f"no free place for a keypoint within {radius_m:g} m, {there}; point elsewhere or raise snap_radius_m"
+        )
+
+
+class MapNotReadyError(WalkError):
+    """A keypoint was asked for before there is a map to say which place is good."""
+
+    def __init__(self) -> None:
+        super().__init__("the importance map is not ready yet, so no good place can be found; ask again in a moment")
 
 
 class TooManyKeypointsError(WalkError):

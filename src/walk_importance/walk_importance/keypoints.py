@@ -19,7 +19,7 @@ from walk_importance.candidates import (
     rule_out_near,
 )
 from walk_importance.config import KeypointConfig
-from walk_importance.errors import TooManyKeypointsError
+from walk_importance.errors import NoPlaceNearError, TooManyKeypointsError
 from walk_importance.importance_map import ImportanceMap
 from walk_importance.view import quat_xyzw_from_yaw, sees, view_yaws
 
@@ -115,12 +115,14 @@ class _Choice:
             return -1
         self.chosen.append(best)
         self.scores.append(float(self.score[best]))
-        tip = self.candidates.eyes[best]
-        lower_by_cone(
-            self.candidates.eyes, self.score, tip, self._config.cone_radius_m, self._config.cone_depth, STOREY_REACH_M
-        )
-        rule_out_near(self.candidates.eyes, self.apart, tip, self._width_m)
+        self.suppress(self.candidates.eyes[best])
         return best
+
+    def suppress(self, tip: NDArray[np.float64]) -> None:
+        """Lowers the scores by the cone around a keypoint (3,) and rules out what is too near to it."""
+        radius, depth = self._config.cone_radius_m, self._config.cone_depth
+        lower_by_cone(self.candidates.eyes, self.score, tip, radius, depth, STOREY_REACH_M)
+        rule_out_near(self.candidates.eyes, self.apart, tip, self._width_m)
 
 
 def _rooms_by_importance(building: Building, candidates: Candidates) -> list[int]:
@@ -198,28 +200,37 @@ def snap_keypoint(
     near: NDArray[np.float64],
     config: KeypointConfig | None = None,
     candidates: Candidates | None = None,
+    taken: NDArray[np.float64] | None = None,
 ) -> Suggestion:
     """Returns the one keypoint to take where the user asks for one "near here".
 
-    The best place within `snap_radius_m` of the eye position asked for: importance, lowered the farther off by the
-    cone's depth. Where there is none so near, the nearest place the walker can reach.
+    The best place within `snap_radius_m`, measured level, on the same storey: importance, lowered by the cones of the
+    keypoints that there are, and the farther off the more, by the cone's depth at the radius (our own).
 
     Args:
         building: The building.
         importance_map: Its maps.
         near: (3,) eye position [m].
-        config: `snap_radius_m` and `cone_depth` are used.
+        config: `snap_radius_m` and the cone are used.
         candidates: Of the same building and map, from `find_candidates`.
+        taken: (K, 3) the keypoints that there are, eye positions [m]; the new one keeps a body's width from them.
 
     Raises:
         NoPlaceError: There is no place the walker can reach.
+        NoPlaceNearError: There is none within the radius, or all there are taken.
     """
     config = config or KeypointConfig()
     candidates = candidates or find_candidates(building, importance_map)
-    distance = np.linalg.norm(candidates.eyes - np.asarray(near, dtype=np.float64), axis=1)
-    worth = candidates.score - config.cone_depth * distance / config.snap_radius_m
-    within = distance <= config.snap_radius_m
-    best = int(np.argmax(np.where(within, worth, -np.inf))) if within.any() else int(np.argmin(distance))
     choice = _Choice(building, candidates, config)
+    for tip in np.empty((0, 3)) if taken is None else taken:
+        choice.suppress(tip)
+    away = candidates.eyes - np.asarray(near, dtype=np.float64)
+    distance = np.hypot(away[:, 0], away[:, 1])
+    level = np.abs(away[:, 2]) <= STOREY_REACH_M
+    free = level & choice.apart
+    worth = choice.score - config.cone_depth * distance / config.snap_radius_m
+    best = best_candidate(worth, free & (distance <= config.snap_radius_m))
+    if best < 0:
+        raise NoPlaceNearError(config.snap_radius_m, float(distance[free].min()) if free.any() else np.inf)
     choice.take(np.arange(len(distance)) == best)
     return _suggestion(building, importance_map, choice, ())

@@ -9,20 +9,35 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from walk_building.building import Building
 from walk_building.errors import WalkError
+from walk_building.footing import eye_over_floor
 from walk_building.model import LoadOptions
 from walk_building.walker import Walker
 from walk_importance.cache import default_cache_dir, same_maps
 from walk_importance.candidates import Candidates, find_candidates, rescored
 from walk_importance.config import ImportanceConfig, KeypointConfig
+from walk_importance.errors import MapNotReadyError
 from walk_importance.importance_map import ImportanceMap, reweigh
-from walk_importance.keypoints import suggest_keypoints
+from walk_importance.keypoints import snap_keypoint, suggest_keypoints
 from walk_importance.pipeline import refine_importance
 from walk_importance.store import MapStore, Start
-from walk_ros.node import WalkNode
+from walk_ros.near_desk import NearDesk, Place
+from walk_ros.node import STOP_S, WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS, map_bytes, map_messages, suggestion_messages
 from walk_ros.runner import run_node
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class _Ready:
+    """What a place near a point is found with; replaced as a whole, so that another thread may take it at any time."""
+
+    building: Building
+    importance_map: ImportanceMap
+    candidates: Candidates
 
 
 class ImportanceNode(WalkNode):
@@ -37,12 +52,19 @@ class ImportanceNode(WalkNode):
         self.declare_text("cache_dir", str(default_cache_dir()), "folder of computed maps; empty keeps none")
         self._map: ImportanceMap | None = None
         self._candidates: Candidates | None = None
+        self._ready: _Ready | None = None
         self._map_for: ImportanceConfig | None = None
         self._suggested_for: KeypointConfig | None = None
         self._early: Start | None = None
         self._storeys = 0
         self.offer("importance_map", "importance_map/storeys", "suggested_keypoints")
+        self._near = NearDesk(self, self._find_near)
         self.start()
+
+    def destroy_node(self) -> None:
+        """Ends both threads, then the node."""
+        self._near.stop(STOP_S)
+        super().destroy_node()
 
     def before_loading(self, source: Path, options: LoadOptions, walker: Walker) -> None:
         """Publishes what an earlier start with this file came to, if that is kept."""
@@ -71,6 +93,7 @@ class ImportanceNode(WalkNode):
             return
         if self._candidates is None:
             self._candidates = find_candidates(building, self._map)
+        self._ready = _Ready(building=building, importance_map=self._map, candidates=self._candidates)
         if suggest != self._suggested_for:
             self._suggested_for = suggest
             self._suggest(building, self._map, suggest)
@@ -78,6 +101,7 @@ class ImportanceNode(WalkNode):
     def forget(self) -> None:
         """Drops the map of another building."""
         self._map = self._candidates = self._map_for = self._suggested_for = self._early = None
+        self._ready = None
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes an empty map, unless there is one, and no keypoints."""
@@ -95,6 +119,16 @@ class ImportanceNode(WalkNode):
             return False  # loading goes on, whatever the map is to be like
         running = self._map_for
         return running is None or not same_maps(running, self._configs()[0])
+
+    def _find_near(self, point: NDArray[np.float64], taken: NDArray[np.float64]) -> Place:
+        """Returns the best place around a point, in the thread of the desk that asks for it."""
+        ready = self._ready
+        if ready is None:
+            raise MapNotReadyError
+        eye = eye_over_floor(ready.building, point)
+        config = self.parameters.get("keypoints", KeypointConfig)
+        found = snap_keypoint(ready.building, ready.importance_map, eye, config, ready.candidates, taken)
+        return found.positions[0], found.quat_xyzw[0]
 
     def _configs(self) -> tuple[ImportanceConfig, KeypointConfig]:
         # Suggestions do not depend on how far a keypoint asked for is moved.

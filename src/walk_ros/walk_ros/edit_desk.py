@@ -23,6 +23,7 @@ from walk_ros.conversions.edits import (
 from walk_ros.editor import FEEDBACK
 from walk_ros.errors import MessageError
 from walk_ros.keypoint_view import KeypointView
+from walk_ros.near_watch import NearWatch
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS
 
@@ -53,6 +54,7 @@ class EditDesk:
         self._node = node
         self._view = view
         self.waiting: deque[Asked] = deque()
+        self._near = NearWatch(node, self._refuse_near)
         node.offer("edit_results")
         node.take_in("keypoint_edits", self._store)
         node.take_in(FEEDBACK, lambda msg: self._store(msg, from_editor=True))
@@ -103,7 +105,16 @@ class EditDesk:
         except MessageError as error:
             self._say(msg.marker_name, msg.client_id, Outcome.REFUSED, error.reason)
             raise
+        if edit.change is Change.INSERT_NEAR:
+            self._near.wait_for(edit)
+            return
+        if edit.change is Change.INSERT:
+            self._near.answered(edit.client_id, edit.stamp_ns)
         self._queue(edit, from_editor)
+
+    def _refuse_near(self, edit: KeypointEdit, reason: str) -> None:
+        name = str(edit.keypoint) if edit.keypoint >= 0 else ""
+        self._say(name, edit.client_id, Outcome.REFUSED, reason, edit.stamp_ns)
 
     def _queue(self, edit: KeypointEdit, from_editor: bool = False) -> Asked:
         asked = Asked(edit=edit, came_s=self._node.now_s(), from_editor=from_editor)

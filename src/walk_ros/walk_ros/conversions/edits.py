@@ -49,6 +49,7 @@ class Change(enum.IntEnum):
     LATER = 12
     UNDO = 13
     REDO = 14
+    INSERT_NEAR = 15  # the importance node turns it into an INSERT at the best place around
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,7 +119,7 @@ def edit_from_msg(msg: InteractiveMarkerFeedback) -> KeypointEdit:
         f"{name!r} is no keypoint; expected its number",
     )
     # What is not about a place needs none: menus and scripts may leave the pose as it is made, all zero.
-    positions, quats = pose_arrays(KIND, [msg.pose if change in (None, Change.INSERT) else _no_pose()])
+    positions, quats = pose_arrays(KIND, [msg.pose if change in _WITH_POSE else _no_pose()])
     target = None
     if change is Change.LOOK_AT and msg.mouse_point_valid:
         target = finite_array(KIND, "mouse point", point_rows([msg.mouse_point]), 3)[0]
@@ -135,7 +136,8 @@ def edit_from_msg(msg: InteractiveMarkerFeedback) -> KeypointEdit:
     )
 
 
-_NAMELESS = (Change.INSERT, Change.UNDO, Change.REDO)
+_NAMELESS = (Change.INSERT, Change.INSERT_NEAR, Change.UNDO, Change.REDO)
+_WITH_POSE = (None, Change.INSERT, Change.INSERT_NEAR)
 _WITH_ARGUMENT = (Change.INSERT, Change.REORDER, Change.DWELL)
 
 
