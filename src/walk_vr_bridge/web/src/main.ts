@@ -1,7 +1,23 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import "./page.css";
+import { browserClient } from "./client/client";
+import { Stage } from "./scene/stage";
 import { View } from "./scene/view";
+import { XrRoom } from "./xr/room";
+import { XrEntry } from "./xr/session";
+
+async function start(canvas: HTMLCanvasElement): Promise<void> {
+  const client = await browserClient();
+  const view = new View(canvas);
+  const stage = new Stage(view, client.store);
+  const xr = new XrEntry(view);
+  const room = new XrRoom(view, stage, client.store, client.actions, null);
+  xr.onChange = (inside) => room.setInside(inside);
+  view.start();
+  void client.start();
+  Object.assign(window, { walk: { view, stage, client, xr, room } });
+}
 
 const canvas = document.querySelector<HTMLCanvasElement>("#view");
-if (canvas) new View(canvas).start();
+if (canvas) void start(canvas);

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from "three";
+import type { Actions } from "../client/actions";
+import type { Overlay } from "../scene/overlay";
+import { KEYPOINT } from "../scene/palette";
+import type { Stage } from "../scene/stage";
+import type { HandInput } from "./input";
+import { entry } from "./teleport";
+
+const BALL_M = 0.02;
+const FLAT = 0.7;
+
+/** A new keypoint on its way from the panel into the miniature or the room: a ball in the hand, put down where it is let go. */
+export class Adding {
+  private readonly ball: Mesh<SphereGeometry, MeshBasicMaterial>;
+  private readonly target = new Vector3();
+  private overlay: Overlay | null = null;
+
+  constructor(
+    private readonly stage: Stage,
+    private readonly actions: Actions,
+  ) {
+    const look = new MeshBasicMaterial({ color: KEYPOINT.plain, transparent: true, opacity: 0.9 });
+    this.ball = new Mesh(new SphereGeometry(1, 16, 12), look);
+    this.ball.visible = false;
+    stage.view.scene.add(this.ball);
+  }
+
+  /** Near the miniature the hand itself says where; else the floor that its ray meets, in the miniature or the room. */
+  follow(hand: HandInput, near: boolean): void {
+    this.overlay = null;
+    this.ball.visible = true;
+    this.ball.position.copy(hand.tip);
+    this.ball.scale.setScalar(BALL_M);
+    if (near) {
+      this.overlay = this.stage.inMiniature;
+      this.overlay.place.toMap(hand.tip, this.target).z += this.overlay.place.belowEyeM;
+    } else if (!this.byRay(hand, this.stage.inMiniature)) this.byRay(hand, this.stage.inFull);
+    if (!this.overlay) return;
+    const { place, size } = this.overlay;
+    this.ball.scale.setScalar(size * place.scale);
+    AT.copy(this.target).z -= place.belowEyeM;
+    place.toRoom(AT, this.ball.position);
+  }
+
+  /** Asks for a keypoint at the place; away from any floor nothing is added, and that is said. */
+  drop(): void {
+    this.ball.visible = false;
+    if (!this.overlay) {
+      this.stage.refusalNote.show("There is no floor here. Let go over a floor of the building or the miniature.", this.ball.position, 4);
+      return;
+    }
+    const { x, y, z } = this.target;
+    void this.actions.insert([x, y, z]);
+  }
+
+  cancel(): void {
+    this.ball.visible = false;
+    this.overlay = null;
+  }
+
+  private byRay(hand: HandInput, overlay: Overlay): boolean {
+    const bvh = this.stage.models?.bvh;
+    if (!bvh || !overlay.place.group.visible) return false;
+    const { origin, direction } = overlay.place.rayToMap(hand.ray);
+    const { clip } = this.stage.miniature;
+    const skip = overlay === this.stage.inMiniature && clip.active ? entry(clip.plane, origin, direction) : 0;
+    const hit = bvh.cast(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, skip);
+    if (hit.distance === Infinity || hit.nz < FLAT) return false;
+    this.overlay = overlay;
+    this.target.copy(origin).addScaledVector(direction, hit.distance).z += this.stage.eyeHeightM;
+    return true;
+  }
+}
+
+const AT = new Vector3();

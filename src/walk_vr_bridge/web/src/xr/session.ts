@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+
+import type { View } from "../scene/view";
+
+const FEATURES: XRSessionInit = {
+  requiredFeatures: ["local-floor"],
+  optionalFeatures: ["bounded-floor", "hand-tracking", "layers"],
+};
+
+/** Why there is no headset here, in words; empty where there is one. */
+export type XrObstacle = string;
+
+/** The way into the headset and out of it. */
+export class XrEntry {
+  /** Called when a session begins or has ended. */
+  onChange: ((inside: boolean) => void) | null = null;
+  private session: XRSession | null = null;
+
+  constructor(private readonly view: View) {}
+
+  get inside(): boolean {
+    return this.session !== null;
+  }
+
+  /** Returns what stands in the way of a session: no secure context, no WebXR, no headset. Empty: nothing. */
+  async obstacle(): Promise<XrObstacle> {
+    if (!window.isSecureContext) return "A headset needs https:// or localhost: open the address that the bridge printed.";
+    if (!navigator.xr) return "This browser has no WebXR. Open the page in the headset's own browser.";
+    const able = await navigator.xr.isSessionSupported("immersive-vr").catch(() => false);
+    return able ? "" : "No headset is connected to this browser.";
+  }
+
+  async supported(): Promise<boolean> {
+    return (await this.obstacle()) === "";
+  }
+
+  /** Begins a session; must be called from a click. @throws Error where the browser refuses. */
+  async enter(): Promise<void> {
+    if (this.session || !navigator.xr) return;
+    const session = await navigator.xr.requestSession("immersive-vr", FEATURES);
+    this.session = session;
+    session.addEventListener("end", () => {
+      this.session = null;
+      this.onChange?.(false);
+    });
+    this.view.renderer.xr.setFoveation(1);
+    await this.view.renderer.xr.setSession(session);
+    this.onChange?.(true);
+  }
+
+  async leave(): Promise<void> {
+    await this.session?.end();
+  }
+}
