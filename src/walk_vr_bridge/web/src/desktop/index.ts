@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+/** The page for mouse and keyboard: everything the headset has, around the same scene. */
+
+import "./desktop.css";
+import type { Client } from "../client/client";
+import { DomPanel } from "../panel/dom";
+import { PanelModel } from "../panel/model";
+import { element } from "../panel/element";
+import type { Stage } from "../scene/stage";
+import type { View } from "../scene/view";
+import { StudyView } from "../study/view";
+import type { XrEntry } from "../xr/session";
+import { curtain, help, pairing } from "./dialogs";
+import { dragOut } from "./drag_out";
+import { Ground } from "./ground";
+import { Header } from "./header";
+import { listenToKeys } from "./keys";
+import { Orbit } from "./orbit";
+import { Plan } from "./plan";
+import { Playbar } from "./playbar";
+import { Pointer } from "./pointer";
+import { StoreyRail } from "./rail";
+import { download } from "./save";
+import { Stroll } from "./stroll";
+import { Toasts } from "./toasts";
+import type { Viewpoint, ViewpointName } from "./viewpoint";
+
+export class Desktop {
+  readonly panel: PanelModel;
+  readonly study: StudyView;
+  private readonly viewpoints: Record<ViewpointName, Viewpoint>;
+  private current: Viewpoint;
+  private readonly stroll: Stroll;
+  private readonly rail: StoreyRail;
+  private readonly header: Header;
+  private readonly domPanel: DomPanel;
+  private readonly page = element("div", "desktop");
+  private presenting = false;
+
+  constructor(
+    private readonly view: View,
+    private readonly stage: Stage,
+    private readonly client: Client,
+    xr: XrEntry,
+  ) {
+    const canvas = view.renderer.domElement;
+    canvas.tabIndex = 0;
+    this.study = new StudyView(client, download);
+    this.panel = new PanelModel(client, this.study);
+    this.panel.startClock();
+    const covered = (): { right: number; bottom: number } => this.covered();
+    this.stroll = new Stroll(view, stage);
+    this.viewpoints = { orbit: new Orbit(view, stage, covered), plan: new Plan(view, stage, covered), walk: this.stroll };
+    this.current = this.viewpoints.orbit;
+    const ground = new Ground(stage);
+    const pointer = new Pointer(canvas, stage, client, ground, () => this.current);
+    this.domPanel = new DomPanel(this.panel, { dragOut: dragOut(canvas, client, ground, () => this.openStorey()) });
+    const guide = help();
+    const showHelp = (): void => guide.showModal();
+    this.header = new Header(client, xr, { view: (name) => this.show(name), help: showHelp });
+    this.rail = new StoreyRail(client, () => this.current.name);
+    const toasts = new Toasts(view, stage, client, () => this.current.camera);
+    const parts = [this.header.root, this.rail.root, this.domPanel.root, new Playbar(client).root, toasts.root];
+    this.page.append(...parts, curtain(client), pairing(client), guide);
+    document.querySelector("#page")!.append(this.page);
+    listenToKeys({
+      client,
+      stroll: this.stroll,
+      viewpoint: () => this.current,
+      view: (name) => this.show(name),
+      storey: (by) => this.moveStorey(by),
+      add: () => client.actions.useTool("add"),
+      letGo: () => pointer.letGo(),
+      help: showHelp,
+    });
+    this.followStore(canvas);
+    view.onFrame((seconds) => this.frame(seconds, toasts));
+    this.show("orbit");
+  }
+
+  /** Looks another way. */
+  show(name: ViewpointName): void {
+    if (this.viewpoints[name] !== this.current) this.current.leave();
+    this.current = this.viewpoints[name];
+    this.page.dataset.view = name;
+    this.current.enter();
+    this.header.show(name);
+    this.rail.update();
+  }
+
+  private followStore(canvas: HTMLCanvasElement): void {
+    const { store } = this.client;
+    let firstBuilding = true;
+    store.subscribe("building", () => {
+      const { building } = store.state;
+      if (!building || !firstBuilding) return;
+      firstBuilding = false;
+      // Opened like a doll's house on the storey where a visit begins: what is edited is seen at once.
+      this.client.actions.showStorey(this.stage.storeyAt(building.start[2]));
+    });
+    store.subscribe("selection", () => {
+      const { tool } = store.state.selection;
+      canvas.style.cursor = tool === "edit" ? "" : "crosshair";
+      if (tool === "add") this.openStorey();
+    });
+    store.subscribe("settings", () => this.ride());
+    store.subscribe("playback", () => this.ride());
+  }
+
+  /** Who walks along is inside; who no longer does goes back to look from outside. */
+  private ride(): void {
+    if (this.presenting) return;
+    const { playback, settings } = this.client.store.state;
+    const riding = playback.playing && settings.playbackPlace === "ride";
+    if (riding && this.current.name !== "walk") this.show("walk");
+  }
+
+  /** Opens a storey where none is open: on a roof nothing can be added. */
+  private openStorey(): void {
+    const { building, selection } = this.client.store.state;
+    if (building && selection.storey < 0 && this.current.name === "orbit") {
+      this.client.actions.showStorey(this.stage.storeyAt(building.start[2]));
+    }
+  }
+
+  private moveStorey(by: number): void {
+    const { building, selection } = this.client.store.state;
+    if (!building) return;
+    const lowest = this.current.name === "orbit" ? -1 : 0;
+    const next = Math.min(building.storeys.length - 1, Math.max(lowest, selection.storey + by));
+    this.client.actions.showStorey(next);
+  }
+
+  private frame(seconds: number, toasts: Toasts): void {
+    if (this.view.presenting !== this.presenting) {
+      this.presenting = this.view.presenting;
+      this.page.hidden = this.presenting;
+      if (this.presenting) this.current.leave();
+      else this.current.enter();
+    }
+    if (this.presenting) return;
+    this.current.frame(seconds);
+    // Here refusals are elements of the page, which read better than a picture.
+    this.stage.refusalNote.hide();
+    toasts.frame();
+  }
+
+  /** How much of the view the panel covers [px]. */
+  private covered(): { right: number; bottom: number } {
+    const box = this.domPanel.root.getBoundingClientRect();
+    const sheet = box.width > window.innerWidth * 0.8;
+    return sheet ? { right: 0, bottom: window.innerHeight - box.top } : { right: window.innerWidth - box.left, bottom: 0 };
+  }
+}
+
+export function mountDesktop(view: View, stage: Stage, client: Client, xr: XrEntry): Desktop {
+  return new Desktop(view, stage, client, xr);
+}

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+/** Around the building: a target that is turned about, moved, and come nearer to. Room coordinates, y up. */
+
+import { type Camera, Vector3 } from "three";
+import type { Stage } from "../scene/stage";
+import type { View } from "../scene/view";
+import type { Viewpoint } from "./viewpoint";
+
+const TURN_RAD_PER_PX = 0.006;
+const LEAST_POLAR = 0.05;
+const MOST_POLAR = 1.5;
+const LEAST_M = 1.5;
+/** Keypoints stay about this large in the picture: their radius over the distance. */
+const PIN_PART = 0.0085;
+const MARGIN = 1.08;
+/** The camera glides to where it is sent [1/s]. */
+const GLIDE = 12;
+
+export class Orbit implements Viewpoint {
+  readonly name = "orbit";
+  private readonly wanted = { target: new Vector3(), distance: 20, azimuth: -0.65, polar: 0.75 };
+  private readonly now = { target: new Vector3(), distance: 20, azimuth: -0.65, polar: 0.75 };
+  private fitted = false;
+
+  constructor(
+    private readonly view: View,
+    private readonly stage: Stage,
+    private readonly covered: () => { right: number; bottom: number },
+  ) {}
+
+  get camera(): Camera {
+    return this.view.camera;
+  }
+
+  enter(): void {
+    this.stage.setMode("model");
+    this.view.useFlatCamera(null);
+    if (!this.fitted) this.fit();
+  }
+
+  leave(): void {
+    this.view.camera.clearViewOffset();
+  }
+
+  fit(): void {
+    const { bounds, store } = this.stage;
+    this.fitted = this.stage.models !== null;
+    const { building, selection } = store.state;
+    const size = bounds.getSize(SIZE);
+    const floorZ = building?.storeys[selection.storey]?.floorZ;
+    const z = floorZ === undefined ? bounds.min.z + size.z / 2 : floorZ + 1;
+    const { wanted } = this;
+    wanted.target.set(bounds.min.x + size.x / 2, z, -(bounds.min.y + size.y / 2));
+    const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
+    const { right, bottom } = this.covered();
+    const aspect = Math.max(0.3, (width - right) / Math.max(1, height - bottom));
+    const half = Math.tan(((this.view.camera.fov / 2) * Math.PI) / 180) * ((height - bottom) / height);
+    const radius = Math.hypot(size.x, size.y, floorZ === undefined ? size.z : 3) / 2;
+    wanted.distance = (MARGIN * radius) / half / Math.min(1, aspect) / 1.15;
+    this.jump();
+  }
+
+  /** Goes to a place of the map, keeping distance and angle. */
+  lookAt(x: number, y: number, z: number): void {
+    this.wanted.target.set(x, z, -y);
+  }
+
+  jump(): void {
+    this.now.target.copy(this.wanted.target);
+    Object.assign(this.now, { distance: this.wanted.distance, azimuth: this.wanted.azimuth, polar: this.wanted.polar });
+  }
+
+  drag(dx: number, dy: number, pan: boolean): void {
+    const { wanted } = this;
+    if (!pan) {
+      wanted.azimuth -= dx * TURN_RAD_PER_PX;
+      wanted.polar = Math.min(MOST_POLAR, Math.max(LEAST_POLAR, wanted.polar - dy * TURN_RAD_PER_PX));
+      return;
+    }
+    const { camera, renderer } = this.view;
+    const perPx = (2 * Math.tan((camera.fov * Math.PI) / 360) * wanted.distance) / renderer.domElement.clientHeight;
+    const [sin, cos] = [Math.sin(wanted.azimuth), Math.cos(wanted.azimuth)];
+    wanted.target.x -= (cos * dx + sin * dy) * perPx;
+    wanted.target.z -= (-sin * dx + cos * dy) * perPx;
+  }
+
+  zoom(factor: number, clientX: number, clientY: number): void {
+    const { wanted } = this;
+    const { max, min } = this.stage.bounds;
+    const most = 4 * Math.max(10, max.distanceTo(min));
+    const distance = Math.min(most, Math.max(LEAST_M, wanted.distance * factor));
+    const ray = this.view.pointerRay(clientX, clientY, RAY);
+    // Towards what is under the pointer at the target's height, so that one zooms into a room by pointing at it.
+    const along = (wanted.target.y - ray.origin.y) / ray.direction.y;
+    if (along > 0 && along < most && factor < 1) {
+      const share = 1 - distance / wanted.distance;
+      wanted.target.lerp(AT.copy(ray.direction).multiplyScalar(along).add(ray.origin), share);
+    }
+    wanted.distance = distance;
+  }
+
+  frame(seconds: number): void {
+    if (!this.fitted && this.stage.models) this.fit();
+    const { now, wanted, view } = this;
+    const share = 1 - Math.exp(-GLIDE * seconds);
+    now.target.lerp(wanted.target, share);
+    now.distance += (wanted.distance - now.distance) * share;
+    now.azimuth += (wanted.azimuth - now.azimuth) * share;
+    now.polar += (wanted.polar - now.polar) * share;
+    view.rig.position.set(0, 0, 0);
+    view.rig.quaternion.identity();
+    const { camera } = view;
+    camera.position.setFromSphericalCoords(now.distance, now.polar, now.azimuth).add(now.target);
+    camera.lookAt(now.target);
+    this.shift();
+    this.stage.modelPinM = PIN_PART * now.distance;
+  }
+
+  /** Centres the picture in what the panel leaves free. */
+  private shift(): void {
+    const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
+    const { right, bottom } = this.covered();
+    this.view.camera.setViewOffset(width, height, right / 2, bottom / 2, width, height);
+  }
+}
+
+const SIZE = new Vector3();
+const AT = new Vector3();
+const RAY = { origin: new Vector3(), direction: new Vector3() };

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+/** The View tab: how the building is shown, which map is laid into it, and what the path is coloured by. */
+
+import type { Actions } from "../client/actions";
+import type { MapName, PathColour, State, Surface } from "../client/state";
+import type { Section, Widget } from "./widgets";
+
+const SURFACES = [
+  { value: "building", label: "Solid" },
+  { value: "transparent", label: "Transparent" },
+];
+const MAPS = [
+  { value: "none", label: "None" },
+  { value: "obstacle", label: "Obstacle" },
+  { value: "distance", label: "Distance" },
+  { value: "visibility", label: "Visibility" },
+  { value: "importance", label: "Importance" },
+];
+const COLOURS = [
+  { value: "plain", label: "Plain" },
+  { value: "speed", label: "Speed" },
+  { value: "clearance", label: "Clearance" },
+  { value: "height", label: "Height" },
+  { value: "collisions", label: "Collisions" },
+];
+
+/** Clearance is painted over this range [m]; see the scene's path view. */
+const CLEARANCE_RANGE = ["0 m: touches", "0.6 m and more"] as const;
+
+export function viewSections(state: State, actions: Actions): Section[] {
+  const { settings } = state;
+  return [
+    {
+      id: "surface",
+      title: "Building",
+      widgets: [
+        {
+          kind: "choice",
+          id: "surface",
+          label: "Building",
+          options: SURFACES,
+          value: settings.surface,
+          choose: (value) => actions.set({ surface: value as Surface }),
+        },
+        ...storeyChoice(state, actions),
+      ],
+    },
+    { id: "map", title: "Map in the building", widgets: mapWidgets(state, actions) },
+    { id: "path", title: "Path coloured by", widgets: pathWidgets(state, actions) },
+  ];
+}
+
+function storeyChoice({ building, selection }: State, actions: Actions): Widget[] {
+  if (!building || building.storeys.length < 2) return [];
+  const storeys = building.storeys.map(({ name }, index) => ({ value: String(index), label: name }));
+  return [
+    {
+      kind: "choice",
+      id: "storey",
+      label: "Storey",
+      options: [{ value: "-1", label: "All" }, ...storeys.reverse()],
+      value: String(selection.storey),
+      choose: (value) => actions.showStorey(Number(value)),
+    },
+  ];
+}
+
+function mapWidgets({ settings, importance, loading }: State, actions: Actions): Widget[] {
+  const widgets: Widget[] = [
+    {
+      kind: "choice",
+      id: "map",
+      label: "Map",
+      options: MAPS,
+      value: settings.map,
+      choose: (value) => actions.set({ map: value as MapName }),
+    },
+  ];
+  if (settings.map === "none") return widgets;
+  if (!importance) {
+    const text = loading.importance || "The maps are being computed …";
+    return [...widgets, { kind: "note", id: "no-map", text, tone: "plain" }];
+  }
+  const channel = importance.channels.find(({ name }) => name === settings.map);
+  if (!channel) return widgets;
+  const read = (value: number): string => value.toFixed(2);
+  return [...widgets, { kind: "legend", id: "map-legend", low: read(channel.low), high: read(channel.high) }];
+}
+
+function pathWidgets(state: State, actions: Actions): Widget[] {
+  const { settings } = state;
+  const widgets: Widget[] = [
+    {
+      kind: "choice",
+      id: "path-colour",
+      label: "Path coloured by",
+      options: COLOURS,
+      value: settings.pathColour,
+      choose: (value) => actions.set({ pathColour: value as PathColour }),
+    },
+  ];
+  return [...widgets, ...pathLegend(state)];
+}
+
+function pathLegend({ settings, path }: State): Widget[] {
+  const by = settings.pathColour;
+  if (by === "plain" || path.count === 0) return [];
+  const values = by === "speed" ? path.speedMps : by === "height" ? path.heightM : path.clearanceM;
+  const [low, high, unknown] = spread(values, path.count);
+  if (unknown === path.count) {
+    return [{ kind: "note", id: "path-unknown", text: "Being measured along the path …", tone: "plain" }];
+  }
+  if (by === "collisions") return [collisionNote(values, path.count)];
+  if (by === "clearance") {
+    return [
+      { kind: "legend", id: "path-legend", low: CLEARANCE_RANGE[0], high: CLEARANCE_RANGE[1] },
+      { kind: "note", id: "least", text: `Narrowest place: ${low.toFixed(2)} m`, tone: "plain" },
+    ];
+  }
+  const unit = by === "speed" ? "m/s" : "m";
+  const read = (value: number): string => `${value.toFixed(2)} ${unit}`;
+  return [{ kind: "legend", id: "path-legend", low: read(low), high: read(high) }];
+}
+
+function spread(values: Float32Array, count: number): [number, number, number] {
+  let [low, high, unknown] = [Infinity, -Infinity, 0];
+  for (let row = 0; row < count; row++) {
+    const value = values[row]!;
+    if (Number.isNaN(value)) unknown++;
+    low = Math.min(low, Number.isNaN(value) ? low : value);
+    high = Math.max(high, Number.isNaN(value) ? high : value);
+  }
+  return [low, high, unknown];
+}
+
+function collisionNote(clearanceM: Float32Array, count: number): Widget {
+  let hits = 0;
+  for (let row = 0; row < count; row++) if (clearanceM[row]! < 0) hits++;
+  if (hits === 0) return { kind: "note", id: "free", text: "The walker touches nothing.", tone: "good" };
+  return { kind: "note", id: "hits", text: `The walker touches the building at ${hits} of ${count} places.`, tone: "warn" };
+}
