@@ -19,6 +19,12 @@ class TrajoptConfig(Config):
     metres. The weights are our own: the source prints none.
     """
 
+    mode: str = param(
+        "optimised",
+        "optimised, which is checked too; or the source's manual mode, a spline through the keypoints in their order "
+        "that is not optimised: its collisions are told, not mended",
+        choices=("optimised", "catmull_rom", "b_spline"),
+    )
     points: int = param(
         0,
         "number of points that are optimised; 0 takes one every spacing_m, and 100 for a short tour",

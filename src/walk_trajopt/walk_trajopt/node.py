@@ -34,9 +34,8 @@ from walk_ros.node import WalkNode
 from walk_ros.results import path_bytes, path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
-from walk_trajopt.optimiser import Optimiser
+from walk_trajopt.live import LivePath, Revision, live_path
 from walk_trajopt.path import OptimisedPath
-from walk_trajopt.state import State
 from walk_trajopt.targets import NOWHERE, look_targets
 from walk_trajopt.timing import time_path
 
@@ -51,6 +50,12 @@ class Plan:
     marks: KeypointMarks
     polyline: NDArray[np.float64]
 
+    @property
+    def revision(self) -> Revision:
+        """What of it concerns the path."""
+        locked = frozenset(self.marks.locked)
+        return Revision(ids=self.ids, keypoints=self.keypoints.positions, polyline=self.polyline, locked=locked)
+
 
 class TrajoptNode(WalkNode):
     """Publishes the optimised path and the trajectory."""
@@ -64,8 +69,7 @@ class TrajoptNode(WalkNode):
         self._undo = False
         self._marks = KeypointMarks()
         self._plan: Plan | None = None
-        self._optimiser: Optimiser | None = None
-        self._settled: State | None = None
+        self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
         self.offer("path", "trajectory")
         self.take_in("keypoints", lambda msg: self._store("keypoints", keypoints_from_msg(msg)))
@@ -77,7 +81,7 @@ class TrajoptNode(WalkNode):
         self.start()
 
     def work(self, building: Building) -> None:
-        """Solves the whole problem where the tour or the settings are new, else only what an edit touches."""
+        """Follows the newest revision and the edits since; solves only where something changed."""
         plan = self._whole_plan()
         config = self.parameters.get("trajopt", TrajoptConfig)
         timing = self.parameters.get("timing", TimingConfig)
@@ -86,21 +90,21 @@ class TrajoptNode(WalkNode):
             return
         undo, self._undo = self._undo, False
         if (plan.stamp_ns, config) != self._solved_for[:2]:
-            self._solve(building, plan, config, timing)
-        elif self._optimiser is not None and (undo or timing != self._solved_for[2]):
-            if undo and self._settled is not None:
-                self._optimiser.state = self._settled
-            self._publish(self._optimiser.path(), timing)
+            if self._live is None or config != self._solved_for[1]:
+                self._live = live_path(building, config)
+            self._follow(self._live, plan, timing)
+        elif self._live is not None and (undo or timing != self._solved_for[2]):
+            self._publish(self._live.take_back() if undo else self._live.path(), timing)
         self._solved_for = (plan.stamp_ns, config, timing)
         self._follow_edits(building, plan, timing)
 
     def forget(self) -> None:
         """Drops the path through another building; the tour is kept, for the sequencer may have been faster."""
-        self._optimiser, self._solved_for = None, ()
+        self._live, self._solved_for = None, ()
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes an empty path and trajectory; the next step solves again, whatever it is about."""
-        self._solved_for = ()
+        self._live, self._solved_for = None, ()
         self.publish_all(path_messages(None, stamp_ns))
 
     def supersedes(self, groups: frozenset[str]) -> bool:
@@ -126,19 +130,14 @@ class TrajoptNode(WalkNode):
             )
         return self._plan
 
-    def _solve(self, building: Building, plan: Plan, config: TrajoptConfig, timing: TimingConfig) -> None:
+    def _follow(self, live: LivePath, plan: Plan, timing: TimingConfig) -> None:
         began = self.now_s()
-        self._optimiser = None
         if len(np.unique(plan.polyline, axis=0)) < 2:
             self.fail(self.revision())
             self.diagnostics.state("idle", "the tour has no length: nothing to walk", level="warn", code="empty_tour")
             return
         self.diagnostics.state("solving")
-        optimiser = Optimiser(building, plan.polyline, plan.keypoints.positions, config)
-        optimiser.solve()
-        self.worker.progress("trajectory", 0.6)
-        path = optimiser.check()
-        self._optimiser, self._settled = optimiser, optimiser.state
+        path = live.follow(plan.revision)
         self._publish(path, timing)
         self.get_logger().info(f"a walk past {len(plan.ids)} keypoints is published: {path.length_m:.0f} m")
         self.diagnostics.note(solve_ms=f"{1e3 * (self.now_s() - began):.1f}")
@@ -152,21 +151,19 @@ class TrajoptNode(WalkNode):
                 self.diagnostics.dropped()
             latest[edit.keypoint] = (edit, came_s)
         for edit, came_s in latest.values():
-            if self._optimiser is None or edit.keypoint not in plan.ids:
+            if self._live is None or edit.keypoint not in plan.ids:
                 continue
-            outcome = self._optimiser.move_keypoint(
-                plan.ids.index(edit.keypoint), eye_over_floor(building, edit.position)
-            )
+            outcome = self._live.move(edit.keypoint, eye_over_floor(building, edit.position))
             if outcome.accepted:
                 self._publish(outcome.path, timing)
                 self.diagnostics.latency(self.now_s() - came_s)
             self.diagnostics.note(last_edit=outcome.reason or f"keypoint {edit.keypoint} followed")
 
     def _publish(self, path: OptimisedPath, timing: TimingConfig) -> None:
-        assert self._plan is not None and self._optimiser is not None
+        assert self._plan is not None and self._live is not None
         ids, marks = self._plan.ids, self._plan.marks
         chosen = np.array([marks.look_at.get(i, NOWHERE) for i in ids])
-        targets = look_targets(self._optimiser.state.keypoints, self._plan.keypoints.quat_xyzw, chosen)
+        targets = look_targets(self._live.keypoints, self._plan.keypoints.quat_xyzw, chosen)
         dwell_s = [marks.dwell_s.get(i, timing.dwell_s) for i in ids]
         trajectory = time_path(path, timing, look_at=targets, dwell_s=dwell_s)
         stamp_ns = self.revision()

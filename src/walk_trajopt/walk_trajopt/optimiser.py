@@ -16,17 +16,21 @@ from walk_trajopt.check import PathCheck
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine
 from walk_trajopt.objectives import Setting
-from walk_trajopt.path import OptimisedPath, Stretch, read_only
-from walk_trajopt.polyline import Polyline, arc_lengths, as_polyline_points
+from walk_trajopt.path import OptimisedPath
+from walk_trajopt.polyline import Polyline, as_polyline_points, tour_of
 from walk_trajopt.problem import Problem
 from walk_trajopt.repair import Mended, Way, colliding, repair
 from walk_trajopt.resample import keypoint_arcs, point_count
+from walk_trajopt.result import path_of
+from walk_trajopt.revise import ends_at_keypoints, revised, share_of_new
 from walk_trajopt.solvers import SOLVERS, Solution
 from walk_trajopt.state import State, bent, initial_state
 
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
 
 _ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
+
+_MOSTLY_NEW = 0.5  # share of new legs above which solving all of them finds a better path in the same time
 
 _EASE_M = 1.5  # on both sides of a colliding stretch that is optimised again
 _EASED = "optimised again with more weight on the clearance"
@@ -53,17 +57,28 @@ class Optimiser:
     """
 
     def __init__(
-        self, building: Building, polyline: ArrayLike, keypoints: ArrayLike, config: TrajoptConfig | None = None
+        self,
+        building: Building,
+        polyline: ArrayLike,
+        keypoints: ArrayLike,
+        config: TrajoptConfig | None = None,
+        locked: ArrayLike | None = None,
     ) -> None:
+        """Takes a tour as it was planned; `solve` and `check` make a path of it.
+
+        Args:
+            building: Where to walk.
+            polyline: (L, 3) the planned tour's eye positions [m].
+            keypoints: (M, 3) in the order of the tour, which passes them [m].
+            config: The problem and its solver.
+            locked: (M,) keypoints that the path passes exactly; None for none.
+        """
         self.config = config or TrajoptConfig()
         self._building = building
         self._check = PathCheck(building.geometry, building.walker)
-        tour = Polyline(as_polyline_points("polyline", polyline))
-        if len(tour.points) < 2:
-            raise ParameterError("polyline", "all points at one place", "a tour of some length")
-        stops = as_polyline_points("keypoints", keypoints, at_least=0)
+        tour = tour_of(polyline)
         n = point_count(tour.length_m, self.config)
-        self.state: State = initial_state(tour, stops, self._radii(stops), keypoint_arcs(tour, stops), n)
+        self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
         self._spacing_m = tour.length_m / (n - 1)
         self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
@@ -115,6 +130,8 @@ class Optimiser:
         """
         if not 0 <= keypoint < len(self.state.keypoints):
             raise ParameterError("keypoint", keypoint, f"an index below {len(self.state.keypoints)}")
+        if self.state.pinned[keypoint]:
+            return EditOutcome(path=self.path(), accepted=False, reason="the keypoint is locked")
         eye = self._on_floor(as_polyline_points("position", np.reshape(position, (-1, 3)), at_least=1))
         if not np.isfinite(eye).all():
             return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
@@ -135,21 +152,44 @@ class Optimiser:
         self.state, self._solution = dataclasses.replace(checked, cost=cost), solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
+    def revise(
+        self, polyline: ArrayLike, keypoints: ArrayLike, came_from: NDArray[np.int64], locked: ArrayLike | None = None
+    ) -> bool:
+        """Goes over to another tour and solves only the legs that are new, from where the others are.
+
+        Args:
+            polyline: (L, 3) the new tour [m].
+            keypoints: (M, 3) in its order [m].
+            came_from: (M,) index of each in the present state, −1 for a new one.
+            locked: (M,) keypoints that the path passes exactly; None for none.
+
+        Returns:
+            False where more than half of the legs are new, or the tour reaches beyond its keypoints: then nothing has
+            changed, and the whole problem had better be solved.
+        """
+        tour, stops = tour_of(polyline), as_polyline_points("keypoints", keypoints, at_least=0)
+        n = max(round(tour.length_m / self._spacing_m), len(stops)) + 1
+        fresh = self._fresh(tour, stops, locked, n)
+        if not (ends_at_keypoints(fresh) and ends_at_keypoints(self.state)):
+            return False
+        if share_of_new(self.state, fresh, came_from) > _MOSTLY_NEW:
+            return False
+        state, windows = revised(self.state, fresh, came_from)
+        for first, last in windows:
+            self._solution = self._solve(state, first, last)
+            state = self._checked(dataclasses.replace(state, x=self._solution.x), first, last)
+        self.state = dataclasses.replace(state, cost=self._window_cost(state, 0, len(state.x) - 1))
+        return True
+
     def path(self) -> OptimisedPath:
         """Returns the path of the present state, its stretches named by its own arc length."""
-        state = self.state
-        points, tour_m = state.way.points, state.way.tour_m
-        arc = arc_lengths(points)
-        return OptimisedPath(
-            points=read_only(points),
-            keypoint_index=np.abs(tour_m[None, :] - state.keypoint_m[:, None]).argmin(axis=1).astype(np.int64),
-            cost=dict(state.cost),
-            iterations=self._solution.iterations,
-            evaluations=self._solution.evaluations,
-            solver=self.config.solver,
-            repaired=tuple(_stretch(m, state, arc) for m in state.mended if m.free),
-            colliding=tuple(_stretch(m, state, arc) for m in state.mended if not m.free),
-        )
+        return path_of(self.state, self._solution, self.config.solver)
+
+    def _fresh(self, tour: Polyline, stops: NDArray[np.float64], locked: ArrayLike | None, n: int) -> State:
+        pinned = np.zeros(len(stops), bool) if locked is None else np.array(locked, dtype=bool)
+        if pinned.shape != (len(stops),):
+            raise ParameterError("locked", pinned.shape, f"an array of shape ({len(stops)},), one for each keypoint")
+        return initial_state(tour, stops, self._radii(stops), pinned, keypoint_arcs(tour, stops), n)
 
     def _on_floor(self, eyes: NDArray[np.float64]) -> NDArray[np.float64]:
         height = self._building.walker.eye_height_m
@@ -162,6 +202,8 @@ class Optimiser:
         low, high = _around(state, first, last)
         fixed = np.ones(high - low, bool)
         fixed[first + 1 - low : last - low] = False
+        pins = state.keypoint_index[state.pinned] - low
+        fixed[pins[(pins >= 0) & (pins < high - low)]] = True
         problem = Problem(self._setting(state, low, high), config, fixed)
         solution = SOLVERS[config.solver](problem, state.x[low:high], config)
         if self.watch is not None:
@@ -213,7 +255,7 @@ class Optimiser:
         if eased:
             state = self._drawn(state, begin, end)
             touching = colliding(state.way, self._check, window)
-        way, mended = repair(state.way, state.tour, state.keypoint_m, self._check, touching)
+        way, mended = repair(state.way, state.tour, state.keypoint_m, state.pins(), self._check, touching)
         eased = [e for e in eased if not any(m.start_m < e.end_m and m.end_m > e.start_m for m in mended)]
         kept = [m for m in state.mended if m.end_m < window[0] or m.start_m > window[1]]
         return dataclasses.replace(state, way=way, mended=tuple(sorted(kept + eased + mended, key=lambda m: m.start_m)))
@@ -242,14 +284,3 @@ class Optimiser:
 def _around(state: State, first: int, last: int) -> tuple[int, int]:
     """Returns the range of points that terms of the cost between `first` and `last` refer to."""
     return max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
-
-
-def _stretch(mended: Mended, state: State, arc_m: NDArray[np.float64]) -> Stretch:
-    start, end = np.interp([mended.start_m, mended.end_m], state.way.tour_m, arc_m)
-    return Stretch(
-        start_m=float(start),
-        end_m=float(end),
-        after_keypoint=int(np.searchsorted(state.keypoint_m, mended.start_m, side="right")) - 1,
-        before_keypoint=int(np.searchsorted(state.keypoint_m, mended.end_m, side="left")),
-        how=mended.how,
-    )

@@ -88,3 +88,15 @@ def as_polyline_points(name: str, points: ArrayLike, at_least: int = 2) -> NDArr
     if not np.isfinite(array).all():
         raise ParameterError(name, "nan or inf", "finite coordinates in metres")
     return array
+
+
+def tour_of(points: ArrayLike) -> Polyline:
+    """Returns a planned tour (L, 3) as a polyline.
+
+    Raises:
+        ParameterError: No such array, numbers that are not finite, or no length.
+    """
+    tour = Polyline(as_polyline_points("polyline", points))
+    if len(tour.points) < 2:
+        raise ParameterError("polyline", "all points at one place", "a tour of some length")
+    return tour

@@ -84,6 +84,7 @@ def repair(
     way: Way,
     tour: Polyline,
     keep_m: NDArray[np.float64],
+    pins: Way,
     check: PathCheck,
     stretches_m: list[tuple[float, float]],
 ) -> tuple[Way, list[Mended]]:
@@ -93,6 +94,7 @@ def repair(
         way: The optimised path.
         tour: The planned polyline, by whose arc length the way is parametrised.
         keep_m: Arc lengths on the tour that must stay points of the way: those of the keypoints.
+        pins: What the way passes exactly.
         check: What tells where the body passes.
         stretches_m: What does not pass, as `colliding` returns it.
 
@@ -101,21 +103,21 @@ def repair(
     """
     done = []
     for start, end in stretches_m:
-        way, mended = _mend(way, tour, keep_m, check, (start, end))
+        way, mended = _mend(way, tour, (keep_m, pins), check, (start, end))
         done.append(mended)
     return way, done
 
 
 def _mend(
-    way: Way, tour: Polyline, keep_m: NDArray[np.float64], check: PathCheck, core_m: tuple[float, float]
+    way: Way, tour: Polyline, keep: tuple[NDArray[np.float64], Way], check: PathCheck, core_m: tuple[float, float]
 ) -> tuple[Way, Mended]:
     start, end = core_m
-    planned = _piece(way, tour, keep_m, core_m, 1e-3, _ATTEMPTS[-1])
+    planned = _piece(way, tour, keep, core_m, 1e-3, _ATTEMPTS[-1])
     inner = (planned.tour_m >= start) & (planned.tour_m <= end)
     tour_free = bool(check.segments_free(planned.points[inner]).all())
     for ramp in (*_RAMPS_M, tour.length_m):
         for attempt in _ATTEMPTS:
-            piece = _piece(way, tour, keep_m, core_m, ramp, attempt)
+            piece = _piece(way, tour, keep, core_m, ramp, attempt)
             if check.segments_free(piece.points).all():
                 return way.replaced(piece), Mended(start_m=start, end_m=end, free=True, how=attempt.how)
         if not tour_free:
@@ -127,7 +129,7 @@ def _mend(
 def _piece(
     way: Way,
     tour: Polyline,
-    keep_m: NDArray[np.float64],
+    keep: tuple[NDArray[np.float64], Way],
     core_m: tuple[float, float],
     ramp_m: float,
     attempt: _Attempt,
@@ -136,6 +138,7 @@ def _piece(
     low, high = max(core_m[0] - ramp_m, 0.0), min(core_m[1] + ramp_m, tour.length_m)
     grid = np.linspace(low, high, int(np.ceil((high - low) / _STEP_M)) + 1)
     beside = _beside(interpolate(grid, way.tour_m, way.points), grid, tour)
+    keep_m, pins = keep
     # The tour's own vertices must be among the points, or corners would be cut.
     vertices = np.interp(tour.arc_m[(tour.arc_m > beside[0]) & (tour.arc_m < beside[-1])], beside, grid)
     marks = np.concatenate([grid, vertices, way.tour_m, keep_m])
@@ -148,7 +151,10 @@ def _piece(
     along = np.interp(arc, grid, beside)
     target = rounded(along, tour.arc_m, tour.points, attempt.radius_m) if attempt.radius_m > 0.0 else tour.at(along)
     own = interpolate(arc, way.tour_m, way.points)
-    return Way(points=(1.0 - share) * own + share * target, tour_m=arc)
+    points = (1.0 - share) * own + share * target
+    inside = (pins.tour_m >= low) & (pins.tour_m <= high)
+    points[np.abs(arc[:, None] - pins.tour_m[inside]).argmin(axis=0)] = pins.points[inside]
+    return Way(points=points, tour_m=arc)
 
 
 def _beside(points: NDArray[np.float64], arc_m: NDArray[np.float64], tour: Polyline) -> NDArray[np.float64]:

@@ -25,6 +25,7 @@ class State:
         tour: The planned polyline; its parameter is arc length until an edit bends it.
         keypoints: (M, 3) [m].
         radius_m: (M,) how near to each to pass [m].
+        pinned: (M,) whether the path passes it exactly, as it does a locked one.
         keypoint_m: (M,) parameter of the tour at each keypoint.
         keypoint_index: (M,) the point that is each keypoint's.
         start: (n, 3) the points on the tour, x⁰.
@@ -38,6 +39,7 @@ class State:
     tour: Polyline
     keypoints: NDArray[np.float64]
     radius_m: NDArray[np.float64]
+    pinned: NDArray[np.bool_]
     keypoint_m: NDArray[np.float64]
     keypoint_index: NDArray[np.int64]
     start: NDArray[np.float64]
@@ -53,26 +55,34 @@ class State:
         last = int(self.keypoint_index[keypoint + 1]) if keypoint + 1 < len(self.keypoints) else len(self.x) - 1
         return first, last
 
+    def pins(self) -> Way:
+        """Returns the places that the way must pass exactly."""
+        return Way(points=self.keypoints[self.pinned], tour_m=self.keypoint_m[self.pinned])
+
 
 def initial_state(
     tour: Polyline,
     keypoints: NDArray[np.float64],
     radius_m: NDArray[np.float64],
+    pinned: NDArray[np.bool_],
     keypoint_m: NDArray[np.float64],
     n: int,
 ) -> State:
     """Returns the state whose points are on the tour itself."""
     samples = resample(tour, keypoint_m, n)
+    points = samples.points
+    points[samples.keypoint_index[pinned]] = keypoints[pinned]
     return State(
         tour=tour,
         keypoints=keypoints,
         radius_m=radius_m,
+        pinned=pinned,
         keypoint_m=keypoint_m,
         keypoint_index=samples.keypoint_index,
-        start=samples.points,
+        start=points,
         arc_m=samples.arc_m,
-        x=samples.points,
-        way=Way(points=samples.points, tour_m=samples.arc_m),
+        x=points,
+        way=Way(points=points, tour_m=samples.arc_m),
         mended=(),
         cost={},
     )

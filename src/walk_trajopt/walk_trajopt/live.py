@@ -1,0 +1,188 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The path while it is edited: solved once, then only where something changed, and known again when it comes back."""
+
+from __future__ import annotations
+
+import abc
+import dataclasses
+from collections import OrderedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from walk_building.building import Building
+from walk_trajopt.config import TrajoptConfig
+from walk_trajopt.optimiser import EditOutcome, Optimiser
+from walk_trajopt.path import OptimisedPath
+from walk_trajopt.spline import spline_path
+from walk_trajopt.state import State
+
+_REMEMBERED = 256  # revisions whose paths are kept, so that undo shows the very same; some ten megabytes
+_LOCKED = "the keypoint is locked"
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Revision:
+    """What the authority over the keypoints last said. Dwell, look and labels are not the path's business."""
+
+    ids: tuple[int, ...]  # stable identities, in the order of the tour
+    keypoints: NDArray[np.float64]  # (M, 3) [m]
+    polyline: NDArray[np.float64]  # (L, 3) the planned tour [m]
+    locked: frozenset[int] = frozenset()  # identities that the path passes exactly
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Equal for revisions that have the same path."""
+        locked = self.locked & set(self.ids)
+        return self.ids, locked, self.keypoints.tobytes(), self.polyline.tobytes()
+
+    @property
+    def pinned(self) -> NDArray[np.bool_]:
+        """(M,) whether each keypoint is locked."""
+        return np.array([identity in self.locked for identity in self.ids], dtype=bool)
+
+
+class LivePath(abc.ABC):
+    """A path that follows revisions, and edits before they are confirmed. Not safe to share between threads."""
+
+    def __init__(self, building: Building, config: TrajoptConfig) -> None:
+        self._building = building
+        self._config = config
+        self._revision: Revision | None = None
+
+    @property
+    @abc.abstractmethod
+    def keypoints(self) -> NDArray[np.float64]:
+        """(M, 3) where they are now, in the order of the tour [m]."""
+
+    @abc.abstractmethod
+    def path(self) -> OptimisedPath:
+        """Returns the path as it is now."""
+
+    @abc.abstractmethod
+    def follow(self, revision: Revision) -> OptimisedPath:
+        """Returns the path of a revision; of what is shown, all stays that the revision confirms."""
+
+    @abc.abstractmethod
+    def take_back(self) -> OptimisedPath:
+        """Returns the path of the last revision, without the edits shown since."""
+
+    @abc.abstractmethod
+    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+        """Moves a keypoint that is not locked."""
+
+    def move(self, identity: int, position: NDArray[np.float64]) -> EditOutcome:
+        """Moves a keypoint of the last revision: the new path, or the last valid one and the reason."""
+        assert self._revision is not None, "follow a revision first"
+        if identity not in self._revision.ids:
+            return EditOutcome(path=self.path(), accepted=False, reason="the tour has no such keypoint")
+        if identity in self._revision.locked:
+            return EditOutcome(path=self.path(), accepted=False, reason=_LOCKED)
+        return self._moved(self._revision.ids.index(identity), position)
+
+
+class OptimisedWalk(LivePath):
+    """The optimised, checked path. The states of earlier revisions are kept: undo brings them back bit for bit."""
+
+    def __init__(self, building: Building, config: TrajoptConfig) -> None:
+        super().__init__(building, config)
+        self._optimiser: Optimiser | None = None
+        self._known: OrderedDict[tuple[object, ...], State] = OrderedDict()
+
+    @property
+    def keypoints(self) -> NDArray[np.float64]:
+        """(M, 3) where they are now [m]."""
+        assert self._optimiser is not None
+        return self._optimiser.state.keypoints
+
+    def path(self) -> OptimisedPath:
+        """Returns the path as it is now."""
+        assert self._optimiser is not None
+        return self._optimiser.path()
+
+    def follow(self, revision: Revision) -> OptimisedPath:
+        """Returns the path of a revision: the one shown, the one known from before, or one solved where it is new."""
+        before, key = self._revision, revision.key
+        if before is None or self._optimiser is None:
+            self._solve(revision)
+        elif key in self._known:
+            if key != before.key:
+                self._optimiser.state = self._known[key]
+        else:
+            came_from = np.array([before.ids.index(i) if i in before.ids else -1 for i in revision.ids])
+            known = self._optimiser.revise(revision.polyline, revision.keypoints, came_from, revision.pinned)
+            if not known:
+                self._solve(revision)
+        self._revision = revision
+        if key not in self._known:
+            self._remember(key)
+        return self.path()
+
+    def take_back(self) -> OptimisedPath:
+        """Returns the path of the last revision, without the edits shown since."""
+        assert self._revision is not None and self._optimiser is not None
+        self._optimiser.state = self._known[self._revision.key]
+        return self.path()
+
+    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+        assert self._optimiser is not None
+        return self._optimiser.move_keypoint(keypoint, position)
+
+    def _solve(self, revision: Revision) -> None:
+        self._optimiser = None
+        optimiser = Optimiser(
+            self._building, revision.polyline, revision.keypoints, self._config, locked=revision.pinned
+        )
+        optimiser.solve()
+        optimiser.check()
+        self._optimiser = optimiser
+
+    def _remember(self, key: tuple[object, ...]) -> None:
+        assert self._optimiser is not None
+        self._known[key] = self._optimiser.state
+        while len(self._known) > _REMEMBERED:
+            self._known.popitem(last=False)
+
+
+class ManualWalk(LivePath):
+    """The source's manual mode: a spline through the keypoints as they are; where it collides it says so."""
+
+    def __init__(self, building: Building, config: TrajoptConfig) -> None:
+        super().__init__(building, config)
+        self._keypoints = np.empty((0, 3))
+        self._path: OptimisedPath | None = None
+
+    @property
+    def keypoints(self) -> NDArray[np.float64]:
+        """(M, 3) where they are now [m]."""
+        return self._keypoints
+
+    def path(self) -> OptimisedPath:
+        """Returns the path as it is now."""
+        assert self._path is not None
+        return self._path
+
+    def follow(self, revision: Revision) -> OptimisedPath:
+        """Returns the spline through the revision's keypoints."""
+        self._revision, self._keypoints = revision, revision.keypoints
+        self._path = spline_path(self._building, self._keypoints, self._config, self._config.mode)
+        return self._path
+
+    def take_back(self) -> OptimisedPath:
+        """Returns the spline through the keypoints of the last revision."""
+        assert self._revision is not None
+        return self.follow(self._revision)
+
+    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+        moved = self._keypoints.copy()
+        moved[keypoint] = position
+        self._path = spline_path(self._building, moved, self._config, self._config.mode)
+        self._keypoints = moved
+        return EditOutcome(path=self._path, accepted=True, reason="")
+
+
+def live_path(building: Building, config: TrajoptConfig) -> LivePath:
+    """Returns a path in the mode of the config, which follows its first revision next."""
+    kind = OptimisedWalk if config.mode == "optimised" else ManualWalk
+    return kind(building, config)
