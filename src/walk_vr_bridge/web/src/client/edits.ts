@@ -4,7 +4,7 @@
 
 import type { Quat, Vec3 } from "./state";
 
-export const EVENT = { KEEP_ALIVE: 0, POSE_UPDATE: 1, MENU_SELECT: 2, MOUSE_DOWN: 5, MOUSE_UP: 4 } as const;
+export const EVENT = { KEEP_ALIVE: 0, POSE_UPDATE: 1, MENU_SELECT: 2, MOUSE_DOWN: 4, MOUSE_UP: 5 } as const;
 
 export const CHANGE = {
   insert: 1,
