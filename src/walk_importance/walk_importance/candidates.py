@@ -28,12 +28,19 @@ class Candidates:
         eyes: (C, 3) [m].
         score: (C,) importance at the eye's voxel.
         room: (C,) index into the building's rooms, -1 for none.
+        square: (C,) index of the square of its room's floor that it stands for.
+        squares: (S, 3) an eye position in each square [m].
     """
 
     place: NDArray[np.int64]
     eyes: NDArray[np.float64]
     score: NDArray[np.float64]
     room: NDArray[np.int64]
+    square: NDArray[np.int64]
+    squares: NDArray[np.float64]
+
+
+_SQUARE_M = 0.5  # floor is looked at in squares of this side when asking how much of a room is seen
 
 
 def find_candidates(building: Building, importance_map: ImportanceMap) -> Candidates:
@@ -55,12 +62,23 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
     order = np.lexsort((-surface.clearance_m[places], key))
     _, first = np.unique(key[order], return_index=True)
     best = np.sort(order[first])
+    eyes, room = eyes[best], surface.room[places[best]].astype(np.int64)
+    square, shown = _squares(eyes, room)
     return Candidates(
         place=places[best],
-        eyes=eyes[best],
-        score=importance_map.at(eyes[best]).astype(np.float64),
-        room=surface.room[places[best]].astype(np.int64),
+        eyes=eyes,
+        score=importance_map.at(eyes).astype(np.float64),
+        room=room,
+        square=square,
+        squares=eyes[shown],
     )
+
+
+def _squares(eyes: NDArray[np.float64], room: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Returns the square of each candidate (C,), and the first candidate in each square (S,); squares go by rooms."""
+    key = np.column_stack([room, np.floor(eyes / _SQUARE_M).astype(np.int64)])
+    _, first, square = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    return square.reshape(-1), first
 
 
 def rescored(candidates: Candidates, importance_map: ImportanceMap) -> Candidates:
@@ -93,16 +111,17 @@ def lower_by_cone(eyes, score, tip, radius, depth, reach):
     Only up to `reach` above and below, because the source's Euclidean cone would also lower the storeys above.
     """
     for i in range(len(score)):
-        distance = _distance(eyes, i, tip)
-        if distance < radius and abs(eyes[i, 2] - tip[2]) <= reach:
-            score[i] -= depth * (1.0 - distance / radius)
+        if abs(eyes[i, 0] - tip[0]) < radius and abs(eyes[i, 2] - tip[2]) <= reach:
+            distance = _distance(eyes, i, tip)
+            if distance < radius:
+                score[i] -= depth * (1.0 - distance / radius)
 
 
 @numba.njit(cache=True, nogil=True)
 def rule_out_near(eyes, apart, tip, width):
     """Clears `apart` (C,) for the candidates nearer than `width` to `tip`."""
     for i in range(len(apart)):
-        if apart[i] and _distance(eyes, i, tip) < width:
+        if abs(eyes[i, 0] - tip[0]) < width and _distance(eyes, i, tip) < width:
             apart[i] = False
 
 

@@ -23,8 +23,7 @@ from walk_importance.errors import NoPlaceNearError, TooManyKeypointsError
 from walk_importance.importance_map import ImportanceMap
 from walk_importance.view import quat_xyzw_from_yaw, sees, view_yaws
 
-_TARGET_M = 0.5  # floor is looked at in squares of this side when asking how much of a room is seen
-_KNEE_M = 0.5  # and this far above it: over a doorstep, but not over a table
+_KNEE_M = 0.5  # floor counts as seen where this far above it is: over a doorstep, but not over a table
 _ROOM_LIMIT = 60  # keypoints in one room; a hall that large is better served by a count of the user's
 
 
@@ -142,27 +141,27 @@ def _fill(choice: _Choice, count: int) -> None:
 def _cover_room(building: Building, choice: _Choice, in_room: NDArray[np.bool_], config: KeypointConfig) -> None:
     """Adds keypoints until enough of the room's floor is seen from those it has."""
     members = np.flatnonzero(in_room)
-    eyes = choice.candidates.eyes[members]
-    _, first, square = np.unique(
-        np.floor(eyes / _TARGET_M).astype(np.int64), axis=0, return_index=True, return_inverse=True
-    )
-    knees = eyes[first] + np.array([0.0, 0.0, _KNEE_M - building.walker.eye_height_m])
-    weight = np.bincount(square.reshape(-1)) / len(members)
+    candidates = choice.candidates
+    # The squares of a room follow each other, or those of a building without rooms are all there are.
+    first, last = candidates.square[members].min(), candidates.square[members].max() + 1
+    square = candidates.square[members] - first
+    knees = candidates.squares[first:last] + np.array([0.0, 0.0, _KNEE_M - building.walker.eye_height_m])
+    weight = np.bincount(square, minlength=len(knees)) / len(members)
     seen = np.zeros(len(knees), bool)
+    unseen = np.zeros_like(in_room)
     new = [i for i in choice.chosen if in_room[i]]
     for _ in range(_ROOM_LIMIT):
         for i in new:
             ask = np.flatnonzero(~seen)
-            seen[ask] = sees(building.geometry, choice.candidates.eyes[i], knees[ask], config.view_distance_m)
+            seen[ask] = sees(building.geometry, candidates.eyes[i], knees[ask], config.view_distance_m)
         if weight[seen].sum() >= config.room_coverage:
             return
-        unseen = np.zeros_like(in_room)
-        unseen[members] = ~seen[square.reshape(-1)]
+        unseen[members] = ~seen[square]
         best = choice.take(unseen)
         if best < 0:
             return
         # Its own square counts as seen even where the sample of it does not.
-        seen[square.reshape(-1)[np.searchsorted(members, best)]] = True
+        seen[candidates.square[best] - first] = True
         new = [best]
 
 

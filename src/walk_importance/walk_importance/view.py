@@ -4,17 +4,20 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_building.bvh import first_hit
 from walk_building.geometry import Geometry
 from walk_importance.importance_map import ImportanceMap
 
 _YAWS = 72
-_PITCHES_RAD = np.radians([-20.0, 0.0, 15.0])
+_PITCHES_RAD = (np.radians(-20.0), 0.0, np.radians(15.0))
 _FIELD_OF_VIEW_RAD = np.radians(90.0)  # what a headset shows at once
 _FAR_M = 15.0
 _STEPS = 15
+_TOUCH_M = 1e-6  # a surface this near the target is the target's own
 
 
 def view_yaws(geometry: Geometry, importance_map: ImportanceMap, eyes: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -24,24 +27,36 @@ def view_yaws(geometry: Geometry, importance_map: ImportanceMap, eyes: NDArray[n
     map's lowest is summed up; the best window of 90 degrees wins.
     """
     yaw = np.arange(_YAWS) * (2 * np.pi / _YAWS)
-    grid_yaw, grid_pitch = np.meshgrid(yaw, _PITCHES_RAD, indexing="ij")
-    flat = np.cos(grid_pitch)
-    ahead = np.stack([flat * np.cos(grid_yaw), flat * np.sin(grid_yaw), np.sin(grid_pitch)], axis=-1)
-    directions = ahead.reshape(-1, 3)
-    rays = len(directions)
-    origins = np.repeat(eyes, rays, axis=0)
-    ahead = np.tile(directions, (len(eyes), 1))
-    reach = np.minimum(geometry.raycast(origins, ahead, _FAR_M).distance_m, _FAR_M)
-    floor = float(importance_map.importance.min())
-    gain = np.zeros(len(origins))
-    for step in range(_STEPS):
-        away = (step + 0.5) * _FAR_M / _STEPS
-        seen = away < reach
-        gain[seen] += importance_map.at(origins[seen] + away * ahead[seen]) - floor
-    around = gain.reshape(len(eyes), _YAWS, len(_PITCHES_RAD)).sum(axis=2)
+    grid, importance = importance_map.grid, importance_map.importance
+    gain = np.zeros((len(eyes), _YAWS))
+    _look_around(geometry.bvh, eyes, yaw, importance, grid.origin, grid.voxel_size_m, importance.min(), gain)
     half = round(_FIELD_OF_VIEW_RAD / (2 * np.pi) * _YAWS / 2)
-    window = sum(np.roll(around, shift, axis=1) for shift in range(-half, half + 1))
+    window = sum(np.roll(gain, shift, axis=1) for shift in range(-half, half + 1))
     return np.asarray(yaw[np.argmax(window, axis=1)])
+
+
+@numba.njit(cache=True, nogil=True)
+def _look_around(bvh, eyes, yaws, importance, origin, voxel_size, floor, gain):
+    """Adds to `gain` (K, yaws) the importance above `floor` along the rays of each yaw, at all pitches."""
+    for k in range(len(eyes)):
+        x, y, z = eyes[k, 0], eyes[k, 1], eyes[k, 2]
+        for i in range(len(yaws)):
+            for pitch in _PITCHES_RAD:
+                dx, dy, dz = np.cos(pitch) * np.cos(yaws[i]), np.cos(pitch) * np.sin(yaws[i]), np.sin(pitch)
+                reach, _ = first_hit(bvh, x, y, z, dx, dy, dz, _FAR_M)
+                for step in range(_STEPS):
+                    away = (step + 0.5) * _FAR_M / _STEPS
+                    if away >= reach:
+                        break
+                    a = _voxel(x + away * dx, origin[0], voxel_size, importance.shape[0])
+                    b = _voxel(y + away * dy, origin[1], voxel_size, importance.shape[1])
+                    c = _voxel(z + away * dz, origin[2], voxel_size, importance.shape[2])
+                    gain[k, i] += importance[a, b, c] - floor
+
+
+@numba.njit(cache=True, nogil=True)
+def _voxel(at, origin, voxel_size, count):
+    return min(max(int(np.floor((at - origin) / voxel_size)), 0), count - 1)
 
 
 def quat_xyzw_from_yaw(yaw: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -54,11 +69,22 @@ def sees(
     geometry: Geometry, eye: NDArray[np.float64], targets: NDArray[np.float64], distance_m: float
 ) -> NDArray[np.bool_]:
     """Returns which of `targets` (N, 3) an eye (3,) sees, no farther than `distance_m`."""
-    along = targets - eye
-    length = np.linalg.norm(along, axis=1)
-    seen = length <= 1e-6
-    ask = np.flatnonzero((length > 1e-6) & (length <= distance_m))
-    if len(ask):
-        hit = geometry.raycast(np.broadcast_to(eye, (len(ask), 3)), along[ask], distance_m).distance_m
-        seen[ask] = hit >= length[ask] - 1e-6
-    return np.asarray(seen)
+    seen = np.zeros(len(targets), bool)
+    _see(geometry.bvh, eye, targets, distance_m, seen)
+    return seen
+
+
+@numba.njit(cache=True, nogil=True)
+def _see(bvh, eye, targets, reach, seen):
+    """Sets in `seen` (N,) what an eye (3,) sees of `targets` (N, 3), no farther than `reach`; what is set stays."""
+    for i in range(len(targets)):
+        x, y, z = targets[i, 0] - eye[0], targets[i, 1] - eye[1], targets[i, 2] - eye[2]
+        length = np.sqrt(x * x + y * y + z * z)
+        if seen[i] or length > reach:
+            continue
+        if length <= _TOUCH_M:
+            seen[i] = True
+            continue
+        # The direction is as long as the way, so 1 is the target itself.
+        hit, _ = first_hit(bvh, eye[0], eye[1], eye[2], x, y, z, 1.0 - _TOUCH_M / length)
+        seen[i] = hit == np.inf
