@@ -45,6 +45,8 @@ class BridgeNode(WalkNode):
         site: What the web server serves.
     """
 
+    niceness = 0  # edits go through it
+
     def __init__(self, loop: asyncio.AbstractEventLoop, on_config: Callable[[], None]) -> None:
         """Subscribes; everything of the web server happens in the loop.
 
@@ -140,7 +142,7 @@ class BridgeNode(WalkNode):
 
     def _take_map(self, message: Message, building: Building) -> None:
         received = importance_map_from_msg(from_bytes(message.data, "sensor_msgs/msg/PointCloud2"))
-        if received.importance.size:
+        if received is not None:
             self._files.set_volume(volume(received, building.hash))
         else:
             self._files.no_volume()

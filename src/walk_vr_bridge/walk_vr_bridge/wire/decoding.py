@@ -94,7 +94,7 @@ def _integer(low: int, high: int) -> Decoder:
 def _number(value: Any, path: str) -> float:
     kind = type(value)
     if kind is float:
-        return value  # type: ignore[no-any-return]
+        return value
     if kind is int:
         return float(value)
     if value is None:
