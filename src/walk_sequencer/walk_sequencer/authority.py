@@ -20,6 +20,7 @@ from walk_sequencer.journal import Journal
 from walk_sequencer.keypoints import Keypoints
 from walk_sequencer.pipeline import plan_tour
 from walk_sequencer.reorder import reorder, saved_m
+from walk_sequencer.rules import FREE, conflict
 from walk_sequencer.tour import Tour
 from walk_sequencer.wishes import EditRefused, Wish, entry_of
 
@@ -89,7 +90,8 @@ class Authority:
         elif anew:
             planned = self._planned(self.keypoints, config, progress)
             self._settle(planned)
-            rows = reorder(planned.tour.lengths_m, planned.tour.order, self._pinned_rows(planned), config)
+            by_row = _by_row(config, planned.keypoints)
+            rows = reorder(planned.tour.lengths_m, planned.tour.order, self._pinned_rows(planned), by_row)
             self._record(order_entry(planned.keypoints.ids[k] for k in rows.tolist()))
         # Legs are planned in the direction of the rows, so the legs of a new order are planned once more along it:
         # what is shown is then, bit for bit, what a sequencer started again plans from the journal.
@@ -119,7 +121,7 @@ class Authority:
         if planned is None or len(planned.tour.order) < 3:
             return 0.0
         pinned = self._pinned_rows(planned) | {int(planned.tour.order[0])}
-        return saved_m(planned.tour.lengths_m, planned.tour.order, pinned, config)
+        return saved_m(planned.tour.lengths_m, planned.tour.order, pinned, _by_row(config, planned.keypoints))
 
     def _pinned_rows(self, planned: Planned) -> set[int]:
         keypoints = planned.keypoints
@@ -167,7 +169,10 @@ class Authority:
         for name, identity, row in (("start", first, start), ("end", last, end)):
             if identity >= 0 and row < 0:
                 _log.warning("the %s is keypoint %d, which there is not; it is left free", name, identity)
-        here = dataclasses.replace(config, method="given" if keep else config.method, start=start, end=end)
+        # Rules bind the search for an order; one that is kept may be a user's, who went before them.
+        here = dataclasses.replace(
+            _by_row(config, ordered, start, end, bound=not keep), method="given" if keep else config.method
+        )
         previous = self.planned.tour if self.planned is not None else None
         tour = plan_tour(self._building, ordered.positions, here, progress, previous)
         stands = np.isfinite(tour.stands).all(axis=1)
@@ -190,6 +195,18 @@ class Authority:
         self._history.after(entry)
         self._journal.append(entry)
         self._history.apply(entry)
+
+
+def _by_row(
+    config: SequencerConfig, keypoints: Keypoints, start: int = -1, end: int = -1, *, bound: bool = True
+) -> SequencerConfig:
+    """Returns the config with rules that name rows instead of identities; without any where it is not bound."""
+    rules = config.rules.renamed(keypoints.index) if bound else FREE
+    problem = conflict(rules, start, end)
+    if problem:
+        _log.warning("the rules about the order are left out, which the tour's chosen ends contradict")
+    before, together = (FREE if problem else rules).texts()
+    return dataclasses.replace(config, start=start, end=end, before=before, together=together)
 
 
 def _check_stand(planned: Planned, identity: int, editing: EditingConfig) -> None:

@@ -15,10 +15,11 @@ from walk_building.errors import ParameterError
 from walk_building.progress import Progress, no_progress
 from walk_sequencer.beginning import first_from_entrance
 from walk_sequencer.config import SequencerConfig
-from walk_sequencer.order import ORDERS, resolve_method
+from walk_sequencer.order import find_order, resolve_method
 from walk_sequencer.pairs import plan_pairs
 from walk_sequencer.placing import floor_points, part_of_tour, place_keypoints
 from walk_sequencer.roadmap import Roadmap, build_roadmap
+from walk_sequencer.rules import Rules, conflict
 from walk_sequencer.tour import Leg, Stand, Tour, Unreachable, polyline_length_m
 
 
@@ -66,6 +67,12 @@ def _check_ends(config: SequencerConfig, count: int) -> None:
     for name, value in (("start", config.start), ("end", config.end)):
         if value >= count:
             raise ParameterError(name, value, f"the index of one of {count} keypoints, or -1")
+    for k in sorted(config.rules.keypoints):
+        if k >= count:
+            texts = "; ".join(filter(None, (config.before, config.together)))
+            raise ParameterError(
+                "before and together", texts, f"numbers below {count}, that of keypoints, which {k} is not"
+            )
     if config.start == config.end >= 0:
         raise ParameterError("end", config.end, "another keypoint than the start, or -1")
 
@@ -121,15 +128,14 @@ def _assemble(
         lengths[leg.start, leg.goal] = lengths[leg.goal, leg.start] = leg.length_m
     progress("order", 0.0)
     names = np.array(sorted(stands), dtype=np.int64)
-    method = resolve_method(config.method, len(names))
     # An end that cannot be reached is reported as such and is otherwise as good as none.
     start, end = (int(np.flatnonzero(names == k)[0]) if k in stands else -1 for k in (config.start, config.end))
     eyes = _eyes(roadmap, stands, count)
-    if config.start < 0 and config.begin == "entrance" and method != "given":
-        start = first_from_entrance(building, eyes[names])
-        # A tour that is wished to end at the entrance begins elsewhere.
-        start = -1 if start == end else start
-    order = names[ORDERS[method](lengths[np.ix_(names, names)], start, end, config)]
+    row = {name: at for at, name in enumerate(names.tolist())}
+    rules = config.rules.renamed(lambda k: row.get(k, -1))
+    if config.start < 0 and config.begin == "entrance" and config.method != "given":
+        start = _begin(building, eyes[names], end, rules)
+    order = names[find_order(lengths[np.ix_(names, names)], start, end, config, rules)]
     progress("order", 1.0)
     by_pair = {(leg.start, leg.goal): leg for leg in pairs}
     legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in itertools.pairwise(order.tolist()))
@@ -145,10 +151,23 @@ def _assemble(
         stands=eyes,
         polyline=polyline,
         length_m=polyline_length_m(polyline),
-        method=method,
+        method=resolve_method(config.method, len(names) - len(rules.links)),
         stand_of=stands,
         roadmap=roadmap,
     )
+
+
+def _begin(building: Building, eyes: NDArray[np.float64], end: int, rules: Rules) -> int:
+    """Returns the row nearest to the entrance, or to it among those the rules let come first; -1: none, or the end."""
+    first = first_from_entrance(building, eyes)
+    if first == end:
+        # A tour that is wished to end at the entrance begins wherever it is shortest.
+        return -1
+    if first < 0 or not conflict(rules, first, end):
+        return first
+    may = np.array([k for k in range(len(eyes)) if k != end and not conflict(rules, k, end)], dtype=np.int64)
+    first = first_from_entrance(building, eyes[may])
+    return int(may[first]) if first >= 0 else -1
 
 
 def _eyes(roadmap: Roadmap | None, stands: dict[int, Stand], count: int) -> NDArray[np.float64]:

@@ -19,8 +19,9 @@ def order_exact(
     start: int,
     end: int,
     config: SequencerConfig,  # noqa: ARG001  the signature of all orders
+    before: NDArray[np.bool_],
 ) -> NDArray[np.int64]:
-    """Returns an order of least cost (`held1962`), in O(2^n n^2).
+    """Returns an order of least cost (`held1962`), in O(2^n n^2); what must come later is added later.
 
     Raises:
         ParameterError: For more than `MAX_EXACT` indices.
@@ -29,24 +30,25 @@ def order_exact(
         raise ParameterError("method", "exact", f"local_search for {len(costs)} keypoints; exact takes {MAX_EXACT}")
     if len(costs) < 2:
         return np.arange(len(costs))
-    order: NDArray[np.int64] = _held_karp(np.ascontiguousarray(costs, dtype=np.float64), start, end)
+    waits_for = before.T @ (1 << np.arange(len(costs)))
+    order: NDArray[np.int64] = _held_karp(np.ascontiguousarray(costs, dtype=np.float64), start, end, waits_for)
     return order
 
 
 @numba.njit(cache=True, nogil=True)
-def _held_karp(costs, start, end):
+def _held_karp(costs, start, end, waits_for):
     n = len(costs)
     best = np.full((1 << n, n), np.inf)
     before = np.full((1 << n, n), -1, dtype=np.int8)
     for k in range(n):
-        if start < 0 or k == start:
+        if (start < 0 or k == start) and waits_for[k] == 0:
             best[1 << k, k] = 0.0
     for seen in range(1, 1 << n):
         for last in range(n):
             if best[seen, last] == np.inf:
                 continue
             for k in range(n):
-                if seen & (1 << k):
+                if seen & (1 << k) or waits_for[k] & ~seen:
                     continue
                 cost = best[seen, last] + costs[last, k]
                 if cost < best[seen | (1 << k), k]:

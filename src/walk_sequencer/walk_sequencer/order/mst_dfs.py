@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_sequencer.config import SequencerConfig
+from walk_sequencer.order.given import waiting
 
 
 def order_mst_dfs(
@@ -15,17 +16,20 @@ def order_mst_dfs(
     start: int,
     end: int,
     config: SequencerConfig,  # noqa: ARG001  the signature of all orders
+    before: NDArray[np.bool_],
 ) -> NDArray[np.int64]:
     """Returns the tree's vertices depth first (`schmidiger`), for comparison.
 
     Where the costs are a metric the order costs at most twice the optimum. The nearest child goes first. A chosen
-    end goes last, after the subtree it is in; a free start is index 0, or 1 where 0 is the end. Costs that are not
-    symmetric count with the smaller direction in the tree.
+    end goes last, after the subtree it is in; a free start is index 0, or the next that may be one. Costs that are not
+    symmetric count with the smaller direction in the tree. What must come later waits (our own).
     """
     n = len(costs)
     if n < 2:
         return np.arange(n)
-    root = start if start >= 0 else (1 if end == 0 else 0)
+    # A free start is the first index that may be the first.
+    free = (k for k in range(n) if k != end and not before[:, k].any())
+    root = start if start >= 0 else next(free)
     parent, joined = _prim(np.minimum(costs, costs.T), root)
     holds_end, k = set(), end
     while k >= 0:
@@ -42,7 +46,7 @@ def order_mst_dfs(
     if end >= 0:
         order.remove(end)
         order.append(end)
-    return np.array(order, dtype=np.int64)
+    return waiting(order, before)
 
 
 def _prim(costs: NDArray[np.float64], root: int) -> tuple[NDArray[np.int64], list[int]]:
