@@ -22,7 +22,7 @@ from walk_plan.options import plan_options
 SOURCES = [str(path) for path in sorted((Path(__file__).resolve().parents[2] / "src").iterdir())]
 
 
-@pytest.mark.parametrize("name", sorted(set(COMMANDS) - {"record", "replay", "bench", "doctor"}))
+@pytest.mark.parametrize("name", sorted(set(COMMANDS) - {"record", "recover", "replay", "bench", "doctor"}))
 def test_every_command_explains_itself_with_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main([name, "--help"]) == 0
     out = capsys.readouterr().out

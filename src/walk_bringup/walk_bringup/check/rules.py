@@ -11,7 +11,7 @@ from pathlib import Path
 
 from walk_bringup.bootstrap.layout import Layout
 
-ENGINES = ("ompl", "scipy.optimize", "fcl", "trimesh", "ifcopenshell", "collada", "rosbags", "aiohttp")
+ENGINES = ("ompl", "scipy.optimize", "fcl", "trimesh", "ifcopenshell", "collada", "rosbags", "mcap", "aiohttp")
 """Libraries that stand behind names of the project: each is imported in one file."""
 
 ENGINE_EXCEPTIONS = (r"\w+/bench(\.py|/.*)", r"walk_bringup/sample/.*")

@@ -28,7 +28,7 @@ TOOLS: dict[str, tuple[str, ...]] = {
 
 def run_tool(layout: Layout, command: tuple[str, ...]) -> tuple[bool, str]:
     """Runs a tool on what it is for and returns whether it was content, and what it said."""
-    targets = _typed(layout) if command[0] == "mypy" else [Path("src"), Path("tests")]
+    targets = _typed(layout) if command[0] == "mypy" else [Path("src"), Path("tests"), Path("examples")]
     done = subprocess.run(
         [sys.executable, "-m", *command, *map(str, targets)], cwd=layout.root, capture_output=True, text=True
     )

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""A client in Python without ROS: moves a keypoint of a running graph through the bridge.
+
+    ./walk up                                   # in one terminal
+    ./walk python examples/edit_live.py         # in another
+
+Any rosbridge client can do this from any machine; this one is roslibpy (pip install roslibpy).
+"""
+
+import sys
+import threading
+
+import roslibpy
+
+MOUSE_UP = 5  # visualization_msgs/InteractiveMarkerFeedback: a release, the edit that is kept
+
+host, _, port = (sys.argv[1] if len(sys.argv) > 1 else "localhost:8765").partition(":")
+ros = roslibpy.Ros(host=host, port=int(port or 8765))
+ros.run(timeout=10)
+
+markers: dict = {}
+answer: dict = {}
+changed, arrived, answered = threading.Event(), threading.Event(), threading.Event()
+
+
+def on_markers(message: dict) -> None:
+    markers.update(message)
+    arrived.set()
+
+
+def on_result(message: dict) -> None:
+    answer.update({pair["key"]: pair["value"] for pair in message["values"]}, reason=message["message"])
+    answered.set()
+
+
+roslibpy.Topic(ros, "/walk/keypoint_markers", "visualization_msgs/MarkerArray").subscribe(on_markers)
+roslibpy.Topic(ros, "/walk/edit_results", "diagnostic_msgs/DiagnosticStatus").subscribe(on_result)
+roslibpy.Topic(ros, "/walk/path", "nav_msgs/Path").subscribe(
+    lambda message: (print(f"a path of {len(message['poses'])} poses"), changed.set())
+)
+if not (arrived.wait(20) and changed.wait(20)):
+    sys.exit("no keypoints came: is ./walk up running, and has it planned its first walk?")
+
+keypoints = [m for m in markers["markers"] if m["ns"] == "keypoints" and m["action"] == 0]
+print(f"{len(keypoints)} keypoints: {', '.join(m['text'] or str(m['id']) for m in keypoints)}")
+
+changed.clear()
+first = keypoints[0]
+pose = {**first["pose"], "position": {**first["pose"]["position"], "x": first["pose"]["position"]["x"] + 0.25}}
+edit = {"header": {"frame_id": "map"}, "marker_name": str(first["id"]), "event_type": MOUSE_UP, "pose": pose}
+roslibpy.Topic(ros, "/walk/keypoint_edits", "visualization_msgs/InteractiveMarkerFeedback").publish(edit)
+if answered.wait(10):
+    print(f"the move was {answer['outcome']} {answer['reason']}".rstrip())
+    changed.wait(10)
+ros.terminate()
