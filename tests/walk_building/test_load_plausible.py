@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 
+from walk_building.errors import BuildingError
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions
 
@@ -45,15 +46,46 @@ def test_upright_buildings_are_not_suspected(
 
 
 @pytest.mark.parametrize(("size", "slabs", "walls"), _BUILDINGS[:4])
-def test_building_on_its_side_is_suspected_and_set_right_by_the_option(
+def test_building_on_its_side_is_set_upright_where_the_file_names_no_axis(
     tmp_path: Path, size: tuple[float, float, float], slabs: int, walls: int
 ) -> None:
     path = tmp_path / "house.stl"
     building(size, slabs, walls).apply_transform(_TO_Y_UP).export(path)
-    assert any("--up y" in warning for warning in load_model(path).warnings)
-    model = load_model(path, LoadOptions(up="y"))
-    assert not any("on its side" in warning for warning in model.warnings)
+    model = load_model(path)
+    assert any("y is taken as up (--up z" in warning for warning in model.warnings)
     np.testing.assert_allclose(np.ptp(model.vertices, axis=0), size, atol=1e-4)
+    asked = load_model(path, LoadOptions(up="y"))
+    assert not any("up" in warning for warning in asked.warnings)
+    np.testing.assert_array_equal(asked.vertices, model.vertices)
+
+
+@pytest.mark.parametrize("unit_m", [1.0, 0.01, 0.0254])
+def test_the_side_a_building_lies_on_does_not_depend_on_its_unit(tmp_path: Path, unit_m: float) -> None:
+    path = tmp_path / "house.stl"
+    building((60, 50, 3), 1, 14).apply_transform(_TO_Y_UP).apply_scale(1 / unit_m).export(path)
+    np.testing.assert_allclose(
+        np.ptp(load_model(path, LoadOptions(units_m=unit_m)).vertices, axis=0), (60, 50, 3), 1e-4
+    )
+
+
+@pytest.mark.parametrize(("size", "slabs", "walls"), _BUILDINGS[:4])
+def test_the_users_axis_goes_before_what_is_seen(
+    tmp_path: Path, size: tuple[float, float, float], slabs: int, walls: int
+) -> None:
+    path = tmp_path / "house.stl"
+    building(size, slabs, walls).apply_transform(_TO_Y_UP).export(path)
+    model = load_model(path, LoadOptions(up="z"))
+    assert any("--up y" in warning for warning in model.warnings)
+    np.testing.assert_allclose(np.ptp(model.vertices, axis=0), np.array(size)[[0, 2, 1]], atol=1e-4)
+
+
+def test_a_house_in_centimetres_without_a_unit_asks_for_it(tmp_path: Path) -> None:
+    path = tmp_path / "house.stl"
+    building((1000, 800, 600), 3, 3).export(path)
+    with pytest.raises(BuildingError, match=r"in centimetres 10 x 8 x 6 m: .*--units \(0\.01 for centimetres"):
+        load_model(path)
+    np.testing.assert_allclose(np.ptp(load_model(path, LoadOptions(units_m=0.01)).vertices, axis=0), (10, 8, 6), 1e-4)
+    assert np.ptp(load_model(path, LoadOptions(units_m=1.0)).vertices[:, 2]) == pytest.approx(600)
 
 
 def test_z_up_gltf_is_told_to_try_z(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from scipy import ndimage
 
 from walk_building.body import standing_clearances
 from walk_building.geometry import Geometry, in_chunks
+from walk_building.railings import RAILING_M, railings
 from walk_building.raster import Columns, Hits
 
 # Floor that furniture stands on belongs to the plan this far from where somebody can stand.
@@ -90,6 +91,8 @@ def floor_plan(
     if outside.any():
         domain &= distance < ndimage.distance_transform_edt(~outside)
     ledge = domain & _uneven(floor, domain, step_m)
+    if ledge.any():
+        ledge |= railings(_cut(geometry, columns, floor + RAILING_M, domain), ledge, columns.cell_m)
     wall = ledge | _walls(geometry, columns, floor, _ceiling(columns, hits, floor, domain), domain)
     free = domain & ~wall
     stair = free & _steep(floor, domain, ledge, columns.cell_m)

@@ -16,6 +16,7 @@ from walk_building.closed_doors import closed_door_warnings, find_closed_doors
 from walk_building.entrance import find_entrance
 from walk_building.errors import BuildingError
 from walk_building.geometry import Geometry
+from walk_building.ground import Ground
 from walk_building.indoors import (
     DOORWAY_DEPTH_M,
     close_gaps,
@@ -27,10 +28,9 @@ from walk_building.indoors import (
 )
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions, Model
+from walk_building.partition import partition
 from walk_building.progress import Progress, no_progress
 from walk_building.raster import Columns, Hits, cast_columns
-from walk_building.regions import components, start_component
-from walk_building.rooms import find_rooms
 from walk_building.solids import inside_solids
 from walk_building.standing import neighbour_graph, standing_places
 from walk_building.storeys import find_storeys, storey_of
@@ -87,18 +87,14 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         inside = close_gaps(indptr, neighbours, places, inside, DOORWAY_DEPTH_M)
     storeys = model.storeys or find_storeys(places[inside, 2] if inside.any() else places[:, 2])
 
-    allowed = np.ones_like(inside) if options.outdoors else inside
-    component = components(indptr, neighbours, allowed)
-    start = start_component(component, inside & (space >= 0) if (space >= 0).any() else inside)
     edge = np.diff(indptr) < 8
     clearance = surface_distance(indptr, neighbours, places, edge) + columns.cell_m / 2
-    reachable = (component == start) & allowed
-    rooms, room = find_rooms(
+    ground = Ground(
         model=model, geometry=geometry, columns=columns, hits=hits, storeys=storeys, places=places, column=column,
-        indptr=indptr, neighbours=neighbours, clearance_m=clearance, space=space, indoor=inside, component=component,
-        reachable=reachable, step_m=walker.step_m,
+        indptr=indptr, neighbours=neighbours, clearance_m=clearance, space=space, step_m=walker.step_m,
     )  # fmt: skip
-    closed = () if model.doors else find_closed_doors(geometry, places[edge], inside[edge], walker.radius_m)
+    parts = partition(ground, inside, outdoors=options.outdoors)
+    closed = () if model.doors else find_closed_doors(geometry, places[edge], parts.indoor[edge], walker.radius_m)
     surface = WalkableSurface(
         columns=columns,
         step_m=walker.step_m,
@@ -106,13 +102,15 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         column_start=column_start,
         indptr=indptr,
         neighbours=neighbours,
-        indoor=inside,
-        component=component,
+        indoor=parts.indoor,
+        component=parts.component,
         clearance_m=clearance,
-        room=room,
+        room=parts.room,
         storey=storey_of(storeys, places[:, 2]),
     )
-    for array in (places, column_start, indptr, neighbours, inside, component, clearance, room, reachable):
+    for array in (places, column_start, indptr, neighbours, clearance):
+        array.setflags(write=False)
+    for array in (parts.indoor, parts.component, parts.room, parts.reachable):
         array.setflags(write=False)
     return Building(
         model=model,
@@ -120,10 +118,18 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
         geometry=geometry,
         surface=surface,
         storeys=storeys,
-        rooms=rooms,
-        start_component=start,
-        reachable=reachable,
-        entrance=find_entrance(places, indptr, neighbours, component, reachable, place_area_m2=columns.cell_m**2),
+        rooms=parts.rooms,
+        start_component=parts.start,
+        reachable=parts.reachable,
+        entrance=find_entrance(
+            places,
+            indptr,
+            neighbours,
+            parts.component,
+            parts.reachable,
+            place_area_m2=columns.cell_m**2,
+            doors=model.doors,
+        ),
         hash=_hash(model, options, walker),
         warnings=model.warnings + closed_door_warnings(closed, model.offset_m),
         closed_doors=closed,

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from walk_building.building import Room
 from walk_building.floor_plan import floor_plan
-from walk_building.geometry import Geometry
+from walk_building.ground import Ground
 from walk_building.model import Model, Storey
-from walk_building.raster import Columns, Hits
+from walk_building.raster import Columns
 from walk_building.segmentation import drop_small, segment_plan, spread
 from walk_building.storeys import storey_of
 
@@ -37,53 +37,62 @@ class _Floor:
 
 
 def find_rooms(
-    *,
-    model: Model,
-    geometry: Geometry,
-    columns: Columns,
-    hits: Hits,
-    storeys: tuple[Storey, ...],
-    places: NDArray[np.float64],
-    column: NDArray[np.int64],
-    indptr: NDArray[np.int64],
-    neighbours: NDArray[np.int32],
-    clearance_m: NDArray[np.float64],
-    space: NDArray[np.int32],
+    ground: Ground,
     indoor: NDArray[np.bool_],
     component: NDArray[np.int32],
     reachable: NDArray[np.bool_],
-    step_m: float,
 ) -> tuple[tuple[Room, ...], NDArray[np.int32]]:
     """Returns the rooms, declared ones first, and the room of each place (P,), -1 for none.
 
     Indoor places on storeys without spaces, or of models without, are segmented.
     """
+    model, places, space = ground.model, ground.places, ground.space
     floor = _Floor(
-        places=places, clearance_m=clearance_m, component=component, reachable=reachable,
-        place_area_m2=columns.cell_m**2, storeys=storeys,
+        places=places, clearance_m=ground.clearance_m, component=component, reachable=reachable,
+        place_area_m2=ground.columns.cell_m**2, storeys=ground.storeys,
     )  # fmt: skip
-    room = np.full(len(places), -1, np.int32)
-    rooms: list[Room] = []
-    for index, declared in enumerate(model.spaces):
-        standable = space == index
-        members = np.flatnonzero(standable & indoor)
-        under_the_sky = len(members) == 0 and bool(standable.any())
-        storey = next((i for i, s in enumerate(storeys) if s.name == declared.storey), None)
-        if storey is None:
-            base = np.array([declared.vertices[:, 2].min()])
-            storey = int(storey_of(storeys, base)[0])
-        found = _room(declared.label, storey, members, declared.vertices.mean(axis=0), floor)
-        room[found.places] = len(rooms)
-        rooms.append(dataclasses.replace(found, reason=_OUTDOORS) if under_the_sky else found)
-
-    left = indoor & (space < 0) & _without_spaces(model, storeys, places[:, 2])
-    large = _large(component, left, columns)
+    rooms = [_declared_room(index, space, indoor, model, floor) for index in range(len(model.spaces))]
+    left = indoor & (space < 0) & _without_spaces(model, ground.storeys, places[:, 2])
+    large = _large(component, left, ground.columns)
     divided = left & (reachable | ((not model.spaces) & large))
-    level = storey_of(storeys, places[:, 2])
+    label = _segment(ground, divided, indoor)
+    # What nobody reaches, if it is small or beside declared spaces, is not looked into: each part is one entry.
+    rest = left & (label < 0)
+    label[rest] = label.max() + 1 + np.unique(component[rest], return_inverse=True)[1]
+    # A stair that breaks leaves its room in two: the piece that is reached must not hide the one that is not.
+    label = np.where(label >= 0, 2 * label + reachable, -1).astype(np.int32)
+    rooms += _found_rooms(label, large, floor)
+    room = np.full(len(places), -1, np.int32)
+    for index, found in enumerate(rooms):
+        room[found.places] = index
+    return tuple(rooms), room
+
+
+def _declared_room(
+    index: int, space: NDArray[np.int32], indoor: NDArray[np.bool_], model: Model, floor: _Floor
+) -> Room:
+    """The room of a space that the file declares."""
+    declared, standable = model.spaces[index], space == index
+    members = np.flatnonzero(standable & indoor)
+    storey = next((i for i, s in enumerate(floor.storeys) if s.name == declared.storey), None)
+    if storey is None:
+        base = np.array([declared.vertices[:, 2].min()])
+        storey = int(storey_of(floor.storeys, base)[0])
+    room = _room(declared.label, storey, members, declared.vertices.mean(axis=0), floor)
+    under_the_sky = len(members) == 0 and bool(standable.any())
+    return dataclasses.replace(room, reason=_OUTDOORS) if under_the_sky else room
+
+
+def _segment(ground: Ground, divided: NDArray[np.bool_], indoor: NDArray[np.bool_]) -> NDArray[np.int32]:
+    """The piece of each place (P,) of `divided`, storey by storey; -1 for the others."""
+    places, columns, indptr, neighbours = ground.places, ground.columns, ground.indptr, ground.neighbours
+    level = storey_of(ground.storeys, places[:, 2])
     label = np.full(len(places), -1, np.int32)
     for storey in np.unique(level[divided]):
         here = level == storey
-        plan = floor_plan(geometry, columns, hits, column, places, divided & here, here & ~indoor, step_m)
+        plan = floor_plan(
+            ground.geometry, columns, ground.hits, ground.column, places, divided & here, here & ~indoor, ground.step_m
+        )
         piece = segment_plan(plan, columns.cell_m)
         at = (plan.place >= 0) & (piece >= 0)
         label[plan.place[at]] = piece[at] + label.max() + 1
@@ -92,15 +101,7 @@ def find_rooms(
     spread(indptr, neighbours, divided, level, label)
     # Parts too small for a room: one with the storey beside them, or by themselves.
     spread(indptr, neighbours, divided, np.zeros_like(level), label)
-    # What nobody reaches, if it is small or beside declared spaces, is not looked into: each part is one entry.
-    rest = left & (label < 0)
-    label[rest] = label.max() + 1 + np.unique(component[rest], return_inverse=True)[1]
-    # A stair that breaks leaves its room in two: the piece that is reached must not hide the one that is not.
-    label = np.where(label >= 0, 2 * label + reachable, -1).astype(np.int32)
-    for found in _found_rooms(label, large, floor):
-        room[found.places] = len(rooms)
-        rooms.append(found)
-    return tuple(rooms), room
+    return label
 
 
 def _large(component: NDArray[np.int32], left: NDArray[np.bool_], columns: Columns) -> NDArray[np.bool_]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from walk_building.corridors import part_corridors
 from walk_building.floor_plan import FloorPlan
 
 # Half the free width of the widest doorway without a lintel.
@@ -41,7 +42,7 @@ def segment_plan(plan: FloorPlan, cell_m: float) -> NDArray[np.int32]:
     narrow as a doorway and both are wider than it.
     """
     open_floor = plan.free & ~(_openings(plan.wall, plan.free, cell_m) | _openings(plan.wall.T, plan.free.T, cell_m).T)
-    room = _basins(open_floor, cell_m)
+    room = part_corridors(_basins(open_floor, cell_m), cell_m)
     stairs, n_stairs = ndimage.label(plan.stair & (room >= 0), structure=np.ones((3, 3)))
     if n_stairs == 0:
         return room

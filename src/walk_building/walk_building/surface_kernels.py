@@ -115,8 +115,16 @@ def _fit_plane(grid, x, y, z, reach):
     damping = m[0, 0] * (0.1 * grid.cell) ** 2
     m[1, 1] += damping
     m[2, 2] += damping
-    solution = np.linalg.solve(m, rhs)
-    plane[0], plane[1], plane[2] = z + solution[0], solution[1], solution[2]
+    for a in range(3):
+        # Positive definite: elimination needs no choice of rows.
+        for b in range(a + 1, 3):
+            share = m[b, a] / m[a, a]
+            rhs[b] -= share * rhs[a]
+            for c in range(a, 3):
+                m[b, c] -= share * m[a, c]
+    plane[2] = rhs[2] / m[2, 2]
+    plane[1] = (rhs[1] - m[1, 2] * plane[2]) / m[1, 1]
+    plane[0] = z + (rhs[0] - m[0, 1] * plane[1] - m[0, 2] * plane[2]) / m[0, 0]
     return plane
 
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 from pathlib import Path
 from typing import TypeVar
 
@@ -16,6 +17,8 @@ from walk_building.loaders.named_doors import doors_by_name
 from walk_building.loaders.plausible import check_extent, suspect_axes, suspect_precision
 from walk_building.loaders.raw import PartFilter, RawMesh, RawModel
 from walk_building.model import Door, LoadOptions, Model, Part, Space, Storey
+
+_log = logging.getLogger(__name__)
 
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 
@@ -30,6 +33,12 @@ _TO_Z_UP = {
 }
 
 
+_TURNED = (
+    "The file does not say which axis points up; nearly all of its floor faces along y, so y is taken as up "
+    "(--up z if that is wrong)."
+)
+
+
 def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartFilter, content_hash: str) -> Model:
     """Returns the model of a file's content.
 
@@ -38,19 +47,21 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
     """
     units_m = options.units_m or raw.units_m or 1.0
     up = raw.up or "z" if options.up == "auto" else options.up
+    turned = raw.up is None and options.up == "auto" and _lies_on_its_side(raw, path, units_m)
+    if turned:
+        up = "y"
     turn = units_m * _TO_Z_UP[up].T  # rows are points: p_model = p_file @ turn
     raw = doors_by_name(raw, options.doors, turn)
-    warnings = list(raw.warnings) + _assumptions(raw, options, part_filter)
-
+    warnings = list(raw.warnings) + [_TURNED] * turned + _assumptions(raw, options, part_filter)
     solid = [_solid(mesh, turn, path) for mesh in raw.parts]
     meshes = [mesh for mesh, _ in solid if len(mesh.faces)]
     if not meshes:
         raise BuildingError(path, _why_empty(raw, part_filter))
     vertices, faces, parts = _join(meshes)
-    check_extent(vertices, faces, parts, path, units_m)
+    check_extent(vertices, faces, parts, path, units_m, stated=bool(raw.units_m or options.units_m))
     n_degenerate = sum(n for _, n in solid)
     if n_degenerate:
-        warnings.append(f"Triangles without an area were left out: {n_degenerate}.")
+        _log.info("%s: %d triangles without an area were left out", path, n_degenerate)
     warnings += suspect_precision((mesh.vertices for mesh in raw.parts), units_m)
     warnings += suspect_axes(vertices, faces, up)
 
@@ -68,6 +79,15 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
         units_m=units_m,
         warnings=tuple(warnings),
     )
+
+
+def _lies_on_its_side(raw: RawModel, path: Path, units_m: float) -> bool:
+    """Whether a file without a declared vertical shows floors along y as it stands, and none once it is turned."""
+    meshes = [mesh for mesh, _ in (_solid(mesh, units_m * np.eye(3), path) for mesh in raw.parts) if len(mesh.faces)]
+    if not meshes:
+        return False
+    vertices, faces, _ = _join(meshes)
+    return bool(suspect_axes(vertices, faces, "z")) and not suspect_axes(vertices @ _TO_Z_UP["y"].T, faces, "y")
 
 
 def _assumptions(raw: RawModel, options: LoadOptions, part_filter: PartFilter) -> list[str]:

@@ -19,6 +19,9 @@ _SMALLEST_M = 1.0
 _LONGEST_M = 5000.0
 # The tallest building is 830 m high; a single storey in millimetres read as metres is 2500 m.
 _TALLEST_M = 1000.0
+# Few buildings are higher, while a single storey in centimetres read as metres is 250 m.
+_TALLEST_UNSTATED_M = 200.0
+_ASK = "give its unit with --units (0.01 for centimetres, 0.001 for millimetres, 0.0254 for inches, 0.3048 for feet)"
 
 # A walker's clearance of a few centimetres means nothing if walls are only known this well.
 _COARSE_M = 0.005
@@ -27,21 +30,43 @@ _FACING = 0.95
 
 
 def check_extent(
-    vertices: NDArray[np.float64], faces: NDArray[np.int32], parts: tuple[Part, ...], path: Path, units_m: float
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int32],
+    parts: tuple[Part, ...],
+    path: Path,
+    units_m: float,
+    *,
+    stated: bool,
 ) -> None:
     """Refuses a size that is no building's.
 
+    Args:
+        vertices: (V, 3) [m].
+        faces: (F, 3).
+        parts: What the faces belong to.
+        path: For the message.
+        units_m: Length of the file's unit, stated or assumed [m].
+        stated: Whether the file or the user says the unit.
+
     Raises:
-        BuildingError: Under 1 m in every direction, over 5 km along the ground or over 1 km high.
+        BuildingError: Under 1 m in every direction, over 5 km along the ground or over 1 km high; over 200 m high
+            where nobody says the unit.
     """
     extent = np.ptp(vertices, axis=0)
     size = " x ".join(f"{side:.3g}" for side in extent)
     unit = f"with a unit of {units_m:g} m the model measures {size} m"
     if extent.max() < _SMALLEST_M:
-        raise BuildingError(path, f"{unit}, too small to walk in; give its unit with --units")
+        raise BuildingError(path, f"{unit}, too small to walk in; {_ASK}")
     if extent[:2].max() > _LONGEST_M or extent[2] > _TALLEST_M:
         hint = _stray_part(vertices, faces, parts)
-        raise BuildingError(path, f"{unit}, too large for a building; give its unit with --units{hint}")
+        raise BuildingError(path, f"{unit}, too large for a building; {_ASK}{hint}")
+    if not stated and extent[2] > _TALLEST_UNSTATED_M:
+        in_cm = " x ".join(f"{side / 100:.3g}" for side in extent)
+        raise BuildingError(
+            path,
+            f"the file does not say its unit; in metres it measures {size} m, in centimetres {in_cm} m: {_ASK}, "
+            "or --units 1 if it is in metres",
+        )
 
 
 def _stray_part(vertices: NDArray[np.float64], faces: NDArray[np.int32], parts: tuple[Part, ...]) -> str:
