@@ -7,8 +7,8 @@
 
 import sys
 
-from walk_building import load_building
 from walk_bringup.sample import sample_path
+from walk_building import load_building
 
 building = load_building(sys.argv[1] if len(sys.argv) > 1 else sample_path())
 

@@ -10,8 +10,8 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 
-from walk_building import load_building
 from walk_bringup.sample import sample_path
+from walk_building import load_building
 from walk_importance.config import ImportanceConfig
 from walk_importance.pipeline import refine_importance
 

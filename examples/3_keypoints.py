@@ -7,8 +7,8 @@
 
 import sys
 
-from walk_building import load_building
 from walk_bringup.sample import sample_path
+from walk_building import load_building
 from walk_importance.config import ImportanceConfig, KeypointConfig
 from walk_importance.keypoints import suggest_keypoints
 from walk_importance.pipeline import compute_importance

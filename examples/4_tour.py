@@ -9,8 +9,8 @@ import sys
 
 import numpy as np
 
-from walk_building import load_building
 from walk_bringup.sample import sample_path
+from walk_building import load_building
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.pipeline import plan_tour
 

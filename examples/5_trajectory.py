@@ -10,8 +10,8 @@ import time
 
 import numpy as np
 
-from walk_building import BodySweep, load_building
 from walk_bringup.sample import sample_path
+from walk_building import BodySweep, load_building
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.pipeline import plan_tour
 from walk_trajopt import Optimiser, TimingConfig, TrajoptConfig, time_path

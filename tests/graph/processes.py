@@ -15,7 +15,15 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 
-from walk_ros.conversions import EditKind, KeypointEdit, edit_from_msg, edit_result_from_msg, edit_to_msg
+from walk_ros.conversions import (
+    EditKind,
+    KeypointEdit,
+    edit_from_msg,
+    edit_result_from_msg,
+    edit_to_msg,
+    path_from_msg,
+    tour_from_msg,
+)
 from walk_ros.diagnostics import diagnostic_values
 from walk_ros.topics import TOPICS, absolute_name
 
@@ -176,6 +184,18 @@ class Observer:
         return future.result().results[0]
 
 
+def settled(observer):
+    """Waits until the path belongs to the newest tour; returns it."""
+
+    def condition():
+        tour = observer.last("tour")
+        told = observer.state("trajopt").get("tour_revision_ns")
+        return tour is not None and told == str(tour_from_msg(tour).stamp_ns)
+
+    observer.wait(condition, "a path through the newest tour")
+    return path_from_msg(observer.last("path"))
+
+
 @contextlib.contextmanager
 def _environment(**values):
     before = {key: os.environ.get(key) for key in values}
@@ -190,4 +210,4 @@ def _environment(**values):
                 os.environ[key] = value
 
 
-__all__ = ["LIMIT_S", "NODES", "EditKind", "Graph", "Observer", "edit_from_msg"]
+__all__ = ["LIMIT_S", "NODES", "EditKind", "Graph", "Observer", "edit_from_msg", "settled"]

@@ -6,7 +6,7 @@ import signal
 
 import numpy as np
 import pytest
-from graph.processes import EditKind, Observer
+from graph.processes import EditKind, Observer, settled
 
 from walk_bag import read_bag
 from walk_building.pipeline import load_building
@@ -46,18 +46,6 @@ def building(rooms):
 
 def keypoints_of(observer):
     return c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
-
-
-def settled(observer):
-    """Waits until the path belongs to the newest tour; returns it."""
-
-    def condition():
-        tour = observer.last("tour")
-        told = observer.state("trajopt").get("tour_revision_ns")
-        return told == str(c.tour_from_msg(tour).stamp_ns)
-
-    observer.wait(condition, "a path through the newest tour")
-    return c.path_from_msg(observer.last("path"))
 
 
 def test_every_topic_is_published_and_sound(running, observer):
