@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import "./page.css";
 import { browserClient } from "./client/client";
+import { mountDesktop } from "./desktop/index";
 import { Stage } from "./scene/stage";
 import { View } from "./scene/view";
 import { XrRoom } from "./xr/room";
@@ -13,10 +14,11 @@ async function start(canvas: HTMLCanvasElement): Promise<void> {
   const stage = new Stage(view, client.store);
   const xr = new XrEntry(view);
   const room = new XrRoom(view, stage, client.store, client.actions, null);
+  const desktop = mountDesktop(view, stage, client, xr);
   xr.onChange = (inside) => room.setInside(inside);
   view.start();
   void client.start();
-  Object.assign(window, { walk: { view, stage, client, xr, room } });
+  Object.assign(window, { walk: { view, stage, client, xr, room, desktop } });
 }
 
 const canvas = document.querySelector<HTMLCanvasElement>("#view");

@@ -35,7 +35,8 @@ export class Numbers {
   readonly mesh: InstancedMesh<BufferGeometry, ShaderMaterial>;
   private readonly cells = new InstancedBufferAttribute(new Float32Array(MAX_PINS), 1);
 
-  constructor() {
+  /** @param throughWalls whether numbers are seen although something hides their keypoint. */
+  constructor(throughWalls: boolean) {
     const quad = new BufferGeometry();
     const corners = new Float32Array([-0.5, -0.5, 0, 0.5, -0.5, 0, 0.5, 0.5, 0, -0.5, 0.5, 0]);
     quad.setAttribute("position", new BufferAttribute(corners, 3));
@@ -45,7 +46,7 @@ export class Numbers {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       transparent: true,
-      depthTest: false,
+      depthTest: !throughWalls,
       depthWrite: false,
       uniforms: { uDigits: { value: digits() }, uSize: { value: 0.1 } },
     });

@@ -15,7 +15,7 @@ import { makeWalker } from "./walker";
 export class Overlay {
   readonly place: Place;
   readonly pins: Pins;
-  readonly numbers = new Numbers();
+  readonly numbers: Numbers;
   readonly path: PathView;
   readonly map: MapView;
   readonly walker = makeWalker(1.6);
@@ -37,6 +37,7 @@ export class Overlay {
     mapLiftM: number,
   ) {
     this.place = new Place(name, group, belowEyeM);
+    this.numbers = new Numbers(name === "miniature");
     this.pins = new Pins(1.6 - belowEyeM);
     this.path = new PathView(tube, planes, name === "miniature" ? 0.22 : 0);
     this.map = new MapView(planes, mapLiftM);

@@ -14,7 +14,7 @@ const BY_GROUP: Readonly<Record<GroupName, string>> = {
 };
 
 const BY_CLASS: Readonly<Record<string, string>> = {
-  IfcSlab: "#d6c9b6",
+  IfcSlab: "#d9d0c3",
   IfcRoof: "#b9776a",
   IfcColumn: "#c3c7cb",
   IfcBeam: "#c3c7cb",
@@ -23,12 +23,15 @@ const BY_CLASS: Readonly<Record<string, string>> = {
 };
 
 /** Furniture comes in calm tones; one name always has the same. */
-const FURNITURE = ["#8fa6b5", "#b5a58f", "#9db09a", "#b0958f", "#a79bb5", "#c2b38a"];
+const FURNITURE = ["#8fa6b5", "#b5a58f", "#9db09a", "#b0958f", "#8f9aa6", "#c2b38a"];
+const PLANT = /tree|plant|shrub|bush|hedge|palm|baum|pflanze|strauch/i;
+const PLANT_COLOUR = "#7fa374";
 
 /** Returns the colour of a part of the building in linear light. */
 export function colourOfPart(group: GroupName, part: Part, target: Color): Color {
   const byClass = BY_CLASS[part.kind];
   if (byClass) return target.set(byClass);
+  if (PLANT.test(part.name)) return target.set(PLANT_COLOUR);
   if (group === "furniture") return target.set(FURNITURE[hash(part.name) % FURNITURE.length]);
   return target.set(BY_GROUP[group]);
 }

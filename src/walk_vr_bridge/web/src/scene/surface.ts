@@ -41,9 +41,11 @@ void main() {
     float sun = max(dot(normal, uSun), 0.0);
     float facing = abs(dot(normal, normalize(uEye - vMap)));
     float side = abs(normal.x) * 0.06 - abs(normal.y) * 0.06;
-    vec3 light = mix(vec3(0.46, 0.45, 0.46), vec3(0.74, 0.76, 0.80), sky);
+    vec3 light = mix(vec3(0.56, 0.54, 0.53), vec3(0.76, 0.78, 0.82), sky);
     light += vec3(0.27, 0.255, 0.22) * sun + 0.10 * facing + side;
-    gl_FragColor = vec4(vTint * light, uOpacity);
+    // Undersides of slabs are what ceilings look like from below.
+    vec3 tint = mix(vTint, vec3(0.93, 0.92, 0.9), 0.75 * smoothstep(0.5, 0.9, -normal.z));
+    gl_FragColor = vec4(tint * light, uOpacity);
   }
   #include <colorspace_fragment>
 }`;

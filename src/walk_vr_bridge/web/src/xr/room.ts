@@ -96,7 +96,7 @@ export class XrRoom implements HandlerWorld {
   }
 
   private longest(): number {
-    const size = this.stage.bounds.getSize(AT);
+    const size = this.stage.bounds.getSize(new Vector3());
     return Math.max(size.x, size.y, size.z, 0.1);
   }
 

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page in a real browser with an emulated headset, before the real bridge, DDS and planner nodes."""
+
+import os
+import shutil
+
+import pytest
+from graph.rooms import make_rooms
+from page.browser import STATIC, WEB, BridgedGraph, Browser
+
+_DOMAINS = iter(range(104 + 6 * (os.getpid() % 20), 233))
+
+
+@pytest.fixture(scope="session")
+def browser():
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    node = shutil.which("node")
+    if chromium is None:
+        pytest.skip("there is no chromium; Debian's package of that name serves")
+    if node is None:
+        pytest.skip("there is no node to drive the browser")
+    if not (WEB / "node_modules" / "playwright-core").is_dir():
+        pytest.skip("the page's tools are not installed; `npm ci` in src/walk_vr_bridge/web does that")
+    if not (STATIC / "index.html").is_file():
+        pytest.skip("the page is not built; `npm run build` in src/walk_vr_bridge/web does that")
+    browser = Browser(node, chromium)
+    yield browser
+    browser.close()
+
+
+@pytest.fixture(scope="session")
+def rooms(tmp_path_factory):
+    return make_rooms(tmp_path_factory.mktemp("building") / "rooms.ply")
+
+
+@pytest.fixture
+def next_domain():
+    return lambda: next(_DOMAINS)
+
+
+@pytest.fixture(scope="module")
+def graph(browser, rooms, tmp_path_factory):
+    graph = BridgedGraph(next(_DOMAINS), tmp_path_factory.mktemp("graph"), rooms)
+    try:
+        graph.start_all()
+        yield graph
+    finally:
+        graph.close()
+
+
+@pytest.fixture(scope="module")
+def headset(browser, graph):
+    """A page in the headset that has building, keypoints and path."""
+    page = browser.open(graph.url)
+    page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
+    yield page
+    page.close()
