@@ -98,3 +98,37 @@ def test_the_worker_lives_on_after_an_error(bench):
 
 def test_stop_without_start_returns():
     assert Worker("never", lambda: None, print).stop(0.1)
+
+
+def test_a_short_step_runs_in_the_callers_thread_while_the_worker_rests():
+    worker = Worker("test", lambda: None, pytest.fail)
+    ran = []
+    worker.now(lambda: ran.append(threading.get_ident()))
+    assert ran == [threading.get_ident()]
+
+
+def test_a_short_step_never_runs_beside_the_workers_own(bench):
+    made = bench()
+    made.worker.wake()
+    made.wait_entered()
+    ran = []
+    made.worker.now(lambda: ran.append(1))
+    assert not ran
+    made.go_on.release()
+    # What could not run now has woken the worker, which serves it.
+    made.wait_entered()
+    made.go_on.release()
+
+
+def test_an_error_of_a_short_step_is_reported():
+    errors = []
+    worker = Worker("test", lambda: None, errors.append)
+    worker.now(lambda: 1 / 0)
+    assert [type(e) for e in errors] == [ZeroDivisionError]
+
+
+def test_input_that_is_not_urgent_is_served_all_the_same(bench):
+    made = bench()
+    made.worker.wake(at_once=False)
+    made.wait_entered()
+    made.go_on.release()

@@ -119,7 +119,8 @@ class EditDesk:
     def _queue(self, edit: KeypointEdit, from_editor: bool = False) -> Asked:
         asked = Asked(edit=edit, came_s=self._node.now_s(), from_editor=from_editor)
         self.waiting.append(asked)
-        self._node.worker.wake()
+        # A drag is shown by trajopt, which needs the cores now; what is said about it here can follow.
+        self._node.worker.wake(at_once=edit.kind not in (EditKind.DRAG, EditKind.HOLD))
         return asked
 
     def _change(self, change: Change, response: Trigger.Response) -> Trigger.Response:

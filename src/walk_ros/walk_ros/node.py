@@ -4,24 +4,24 @@
 
 from __future__ import annotations
 
+import gc
 import importlib
 import logging
+import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
-from walk_building.building import Building
 from walk_building.config import Config
 from walk_building.errors import BuildingError, WalkError
 from walk_building.model import LoadOptions
-from walk_building.pipeline import load_building
 from walk_building.walker import Walker
 from walk_ros.diagnostics import Diagnostics, error_code
 from walk_ros.errors import MessageError
@@ -30,6 +30,12 @@ from walk_ros.parameters import ConfigParameters
 from walk_ros.qos import latched
 from walk_ros.topics import NAMESPACE, TOPICS
 from walk_ros.worker import Superseded, Worker
+
+if TYPE_CHECKING:
+    from walk_building.building import Building
+
+BACKGROUND = 5
+"""Niceness of a node whose answers nobody waits for within a frame: on few cores the others go first."""
 
 STOP_S = 3.0
 """How long a worker may take to end: the longest stretch of a stage between two progress reports, with room."""
@@ -40,7 +46,12 @@ class WalkNode(Node):
 
     Subclasses say in `work` what is to be done about the newest input and in `fail` what is published when it
     cannot be done. Both run in the worker's thread.
+
+    Attributes:
+        niceness: By how much the process steps back behind others.
     """
+
+    niceness = BACKGROUND
 
     def __init__(self, name: str, configs: Mapping[str, type[Config]]) -> None:
         """Declares the parameters and starts the diagnostics; the worker starts with `start`.
@@ -50,6 +61,7 @@ class WalkNode(Node):
             configs: Config classes by parameter group, beside `load` and `walker`.
         """
         super().__init__(name, namespace=NAMESPACE)
+        os.nice(max(self.niceness - os.nice(0), 0))
         forward_logging(self.get_logger())
         self.diagnostics = Diagnostics(self.get_fully_qualified_name().strip("/"))
         self.worker = Worker(f"{name} worker", self._step, self.report)
@@ -91,17 +103,33 @@ class WalkNode(Node):
         """Publishes empty, stamped messages, in the worker's thread."""
         raise NotImplementedError
 
-    def take_in(self, topic: str, store: Callable[[Any], None]) -> None:
-        """Subscribes to a topic of the table; a message that is not sound is reported and otherwise ignored."""
+    def take_in(
+        self, topic: str, store: Callable[[Any], None], then: Callable[[], None] | None = None, *, raw: bool = False
+    ) -> None:
+        """Subscribes to a topic of the table; a message that is not sound is reported and otherwise ignored.
+
+        Args:
+            topic: Its name.
+            store: Called with each message.
+            then: Called once all messages that wait have been stored: the latest of them counts.
+            raw: Hand the messages over as bytes.
+        """
 
         def callback(msg: Any) -> None:
-            try:
-                store(msg)
-            except MessageError as error:
-                self.get_logger().warning(f"{topic}: {error}")
-                self.diagnostics.note(refused_message=f"{topic}: {error}")
+            self._stored(topic, store, msg)
+            if then is not None:
+                for more in waiting(subscription):
+                    self._stored(topic, store, more)
+                then()
 
-        self.create_subscription(TOPICS[topic].type, topic, callback, TOPICS[topic].qos)
+        subscription = self.create_subscription(TOPICS[topic].type, topic, callback, TOPICS[topic].qos, raw=raw)
+
+    def _stored(self, topic: str, store: Callable[[Any], None], msg: Any) -> None:
+        try:
+            store(msg)
+        except MessageError as error:
+            self.get_logger().warning(f"{topic}: {error}")
+            self.diagnostics.note(refused_message=f"{topic}: {error}")
 
     def offer(self, *topics: str, depth: int = 0) -> None:
         """Makes the publishers of topics of the table; a depth other than 0 replaces the table's."""
@@ -182,8 +210,11 @@ class WalkNode(Node):
         self.diagnostics.building(path, "")
         began = time.perf_counter()
         try:
-            source = Path(path) if path else _sample()
+            source = Path(path) if path else sample_building()
             self.before_loading(source, wanted[1], wanted[2])
+            # Only now: its imports take longer than all that comes before the first message.
+            from walk_building.pipeline import load_building
+
             self.building = load_building(source, wanted[1], wanted[2], self.worker.progress)
         except Superseded:
             raise
@@ -192,12 +223,22 @@ class WalkNode(Node):
             self._loaded_for = wanted
             raise
         self._loaded_for = wanted
+        # What has been loaded stays: looking through it for garbage takes longer than an edit.
+        gc.collect()
+        gc.freeze()
         self.diagnostics.building(path, self.building.hash)
         self.diagnostics.state("ready")
         self.get_logger().info(f"loaded {name} in {time.perf_counter() - began:.1f} s")
 
 
-def _sample() -> Path:
+def waiting(subscription: Any) -> Iterator[Any]:
+    """Yields the messages that have come in on a subscription beside the one the executor took, without waiting."""
+    with subscription.handle:
+        while (taken := subscription.handle.take_message(subscription.msg_type, subscription.raw)) is not None:
+            yield taken[0]
+
+
+def sample_building() -> Path:
     """Returns the sample building; raises BuildingError where it is not installed."""
     try:
         # By name: walk_bringup has the nodes among what it depends on, and they run without it.

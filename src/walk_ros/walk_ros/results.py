@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Protocol
 
 import numpy as np
@@ -188,12 +188,13 @@ def path_messages(trajectory: TrajectoryLike | None, stamp_ns: int) -> TopicMess
     ]
 
 
-def path_bytes(trajectory: TrajectoryLike, stamp_ns: int) -> list[tuple[str, bytes]]:
-    """Returns what `path_messages` returns, serialised: 0.07 ms, not 26, for 300 rows; edits wait for it."""
-    return [
-        ("path", path_to_bytes(trajectory.t_s, trajectory.positions, trajectory.quat_xyzw, stamp_ns)),
-        ("trajectory", trajectory_to_bytes(trajectory, stamp_ns)),
-    ]
+def path_bytes(trajectory: TrajectoryLike, stamp_ns: int) -> Iterator[tuple[str, bytes]]:
+    """Yields what `path_messages` returns, serialised: 0.07 ms, not 26, for 300 rows.
+
+    An edit waits for the path, so that comes first, and the trajectory is made once the path is out.
+    """
+    yield "path", path_to_bytes(trajectory.t_s, trajectory.positions, trajectory.quat_xyzw, stamp_ns)
+    yield "trajectory", trajectory_to_bytes(trajectory, stamp_ns)
 
 
 def viewpoint_messages(trajectory: TrajectoryLike, stamp_ns: int) -> list[tuple[int, Any]]:

@@ -46,6 +46,7 @@ TOPICS: dict[str, Topic] = {
     "keypoint_editor/update": Topic(type=InteractiveMarkerUpdate, qos=reliable(100)),
     "keypoint_editor/feedback": Topic(type=InteractiveMarkerFeedback, qos=reliable()),
     "path": Topic(type=Path, qos=latched()),
+    "path_results": Topic(type=DiagnosticStatus, qos=reliable()),
     "trajectory": Topic(type=MultiDOFJointTrajectory, qos=latched()),
     "viewpoint": Topic(type=PoseStamped, qos=best_effort()),
     "playback": Topic(type=String, qos=latched()),

@@ -10,6 +10,9 @@ from collections.abc import Callable
 
 _log = logging.getLogger(__name__)
 
+REST_S = 0.006
+"""How long input that is not urgent waits: for as long as others need the cores to answer the same edit."""
+
 
 class Superseded(Exception):  # noqa: N818  not an error: newer input came, or the node ends
     """Raised inside a step of a worker whose result nobody waits for any more."""
@@ -32,8 +35,10 @@ class Worker:
         self._step = step
         self._on_error = on_error
         self._wake = threading.Event()
+        self._at_once = threading.Event()
         self._superseded = threading.Event()
         self._stopped = threading.Event()
+        self._working = threading.Lock()
         # A daemon: a step deep in compiled code must not keep a process alive that was told to end.
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
 
@@ -41,11 +46,31 @@ class Worker:
         """Starts the thread."""
         self._thread.start()
 
-    def wake(self, supersede: bool = False) -> None:
-        """Says that there is new input; with `supersede` a running step ends at its next progress report."""
+    def wake(self, supersede: bool = False, *, at_once: bool = True) -> None:
+        """Says that there is new input.
+
+        Args:
+            supersede: A running step ends at its next progress report.
+            at_once: Begin now; otherwise after `REST_S`, unless something urgent comes before.
+        """
         if supersede:
             self._superseded.set()
+        if at_once:
+            self._at_once.set()
         self._wake.set()
+
+    def now(self, step: Callable[[], None]) -> None:
+        """Runs a short step in the calling thread if the worker is at rest; otherwise only wakes the worker.
+
+        Handing an edit to another thread costs more than answering it: the two fight for the interpreter.
+        """
+        if not self._working.acquire(blocking=False):
+            self.wake()
+            return
+        try:
+            self._attempt(step)
+        finally:
+            self._working.release()
 
     def stop(self, timeout_s: float) -> bool:
         """Ends the thread; returns whether it has ended within the time."""
@@ -64,15 +89,21 @@ class Worker:
     def _run(self) -> None:
         while True:
             self._wake.wait()
+            self._at_once.wait(REST_S)
             if self._stopped.is_set():
                 return
             # Cleared before the step reads its input: what comes in from here on wakes it again.
             self._wake.clear()
-            self._superseded.clear()
-            try:
-                self._step()
-            except Superseded:
-                continue
-            except Exception as error:  # a node lives on, whatever one step ran into
-                if not self._stopped.is_set():
-                    self._on_error(error)
+            self._at_once.clear()
+            with self._working:
+                self._superseded.clear()
+                self._attempt(self._step)
+
+    def _attempt(self, step: Callable[[], None]) -> None:
+        try:
+            step()
+        except Superseded:
+            pass
+        except Exception as error:  # a node lives on, whatever one step ran into
+            if not self._stopped.is_set():
+                self._on_error(error)

@@ -16,14 +16,16 @@ from walk_building.building import Building
 from walk_building.footing import eye_over_floor
 from walk_ros.conversions import (
     EditKind,
+    EditResult,
     KeypointEdit,
     KeypointMarks,
     LabelledKeypoints,
     Outcome,
     Poses,
     TimedPath,
-    edit_from_msg,
+    edit_from_bytes,
     edit_result_from_msg,
+    edit_result_to_msg,
     keypoint_markers_from_msg,
     keypoint_marks_from_msg,
     keypoints_from_msg,
@@ -60,6 +62,8 @@ class Plan:
 class TrajoptNode(WalkNode):
     """Publishes the optimised path and the trajectory."""
 
+    niceness = 0
+
     def __init__(self) -> None:
         super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
         self._newest: dict[str, Poses | LabelledKeypoints | TimedPath] = {}
@@ -71,12 +75,13 @@ class TrajoptNode(WalkNode):
         self._plan: Plan | None = None
         self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
-        self.offer("path", "trajectory")
+        self._path_ns = 0
+        self.offer("path", "trajectory", "path_results")
         self.take_in("keypoints", lambda msg: self._store("keypoints", keypoints_from_msg(msg)))
         self.take_in("keypoint_markers", self._store_markers)
         self.take_in("tour", lambda msg: self._store("tour", tour_from_msg(msg)))
-        self.take_in("keypoint_edits", self._store_edit)
-        self.take_in("keypoint_editor/feedback", self._store_edit)
+        for topic in ("keypoint_edits", "keypoint_editor/feedback"):
+            self.take_in(topic, self._store_edit, self._answer_edits, raw=True)
         self.take_in("edit_results", self._store_result)
         self.start()
 
@@ -157,7 +162,20 @@ class TrajoptNode(WalkNode):
             if outcome.accepted:
                 self._publish(outcome.path, timing)
                 self.diagnostics.latency(self.now_s() - came_s)
-            self.diagnostics.note(last_edit=outcome.reason or f"keypoint {edit.keypoint} followed")
+            self._tell(edit, outcome.reason)
+
+    def _tell(self, edit: KeypointEdit, reason: str) -> None:
+        """Says which path shows an edit, or why the path stays as it is."""
+        self.diagnostics.note(last_edit=reason or f"keypoint {edit.keypoint} followed")
+        result = EditResult(
+            outcome=Outcome.REFUSED if reason else Outcome.FOLLOWED,
+            keypoint=str(edit.keypoint),
+            client_id=edit.client_id,
+            reason=reason,
+            revision_ns=self._path_ns,
+            edit_stamp_ns=edit.stamp_ns,
+        )
+        self.publish("path_results", edit_result_to_msg(result))
 
     def _publish(self, path: OptimisedPath, timing: TimingConfig) -> None:
         assert self._plan is not None and self._live is not None
@@ -166,7 +184,7 @@ class TrajoptNode(WalkNode):
         targets = look_targets(self._live.keypoints, self._plan.keypoints.quat_xyzw, chosen)
         dwell_s = [marks.dwell_s.get(i, timing.dwell_s) for i in ids]
         trajectory = time_path(path, timing, look_at=targets, dwell_s=dwell_s)
-        stamp_ns = self.revision()
+        stamp_ns = self._path_ns = self.revision()
         self.publish_all(path_bytes(trajectory, stamp_ns))
         sentence = f"{path.length_m:.1f} m in {trajectory.duration_s:.0f} s, {len(path.repaired)} stretches repaired"
         if path.colliding:
@@ -186,8 +204,8 @@ class TrajoptNode(WalkNode):
         self._marks = keypoint_marks_from_msg(msg)
         self._store("keypoint_markers", keypoint_markers_from_msg(msg))
 
-    def _store_edit(self, msg: Any) -> None:
-        edit = edit_from_msg(msg)
+    def _store_edit(self, data: bytes) -> None:
+        edit = edit_from_bytes(data)
         # All but moving is the sequencer's: the path follows with its next revision.
         if edit.kind is EditKind.CHANGE or edit.keypoint in self._marks.locked:
             return
@@ -199,7 +217,19 @@ class TrajoptNode(WalkNode):
         if edit.kind in (EditKind.DRAG, EditKind.RELEASE):
             self._followed[edit.keypoint] = edit.client_id
             self._edits.append((edit, self.now_s()))
+
+    def _answer_edits(self) -> None:
+        if self._edits:
+            self.worker.now(self._follow_now)
+
+    def _follow_now(self) -> None:
+        """Follows edits of the tour that is solved; what takes longer is left to the worker."""
+        plan, timing = self._whole_plan(), self.parameters.get("timing", TimingConfig)
+        settings = self.parameters.get("trajopt", TrajoptConfig), timing
+        if self.building is None or plan is None or self._undo or self._solved_for != (plan.stamp_ns, *settings):
             self.worker.wake()
+            return
+        self._follow_edits(self.building, plan, timing)
 
     def _store_result(self, msg: Any) -> None:
         result = edit_result_from_msg(msg)

@@ -20,4 +20,7 @@ def bench(arguments: tuple[str, ...]) -> int:
     """Measure every stage, side by side with the plain way; walk_plan.bench explains its options itself."""
     # A fresh process, so that the first stage is not charged with what this one has loaded.
     sys.stdout.flush()
-    return os.execv(sys.executable, [sys.executable, "-m", "walk_plan.bench", *arguments])
+    module, rest = (
+        ("walk_ros.live_bench", arguments[1:]) if arguments[:1] == ("live",) else ("walk_plan.bench", arguments)
+    )
+    return os.execv(sys.executable, [sys.executable, "-m", module, *rest])

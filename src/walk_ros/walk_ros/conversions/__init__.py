@@ -17,6 +17,7 @@ from walk_ros.conversions.edits import (
     edit_result_to_msg,
     edit_to_msg,
 )
+from walk_ros.conversions.edits_cdr import edit_from_bytes
 from walk_ros.conversions.importance import ReceivedImportanceMap, importance_map_from_msg, importance_map_to_msg
 from walk_ros.conversions.legs import ReceivedLeg, ReceivedLegs, pairwise_paths_from_msg, pairwise_paths_to_msg
 from walk_ros.conversions.markers import LabelledKeypoints, keypoint_markers_from_msg, keypoint_markers_to_msg
@@ -47,6 +48,7 @@ __all__ = [
     "ReceivedTrajectory",
     "StoreyGrid",
     "TimedPath",
+    "edit_from_bytes",
     "edit_from_msg",
     "edit_result_from_msg",
     "edit_result_to_msg",
