@@ -19,27 +19,51 @@ def axis_distance_sq(bvh, x, y, low_z, high_z, limit):
     """
     enough, best = limit
     stack = np.empty(STACK_DEPTH, np.int32)
-    stack[0] = 0
+    stack_sq = np.empty(STACK_DEPTH)
+    stack[0], stack_sq[0] = 0, 0.0
     top = 1
     while top > 0:
         top -= 1
+        if stack_sq[top] >= best:
+            continue
         node = stack[top]
-        dx = max(bvh.low[node, 0] - x, 0.0, x - bvh.high[node, 0])
-        dy = max(bvh.low[node, 1] - y, 0.0, y - bvh.high[node, 1])
-        dz = max(bvh.low[node, 2] - high_z, 0.0, low_z - bvh.high[node, 2])
-        if dx * dx + dy * dy + dz * dz >= best:
-            continue
         first = bvh.child[node]
-        if bvh.filled[node] == 0:
-            stack[top] = first
-            stack[top + 1] = first + 1
-            top += 2
+        if bvh.filled[node] > 0:
+            for i in range(first, first + bvh.filled[node]):
+                if _axis_corners_sq(bvh.triangles[i], x, y, low_z, high_z) < best:
+                    best = min(best, _axis_triangle_sq(bvh.triangles[i], x, y, low_z, high_z))
+                    if best < enough:
+                        return best
             continue
-        for i in range(first, first + bvh.filled[node]):
-            best = min(best, _axis_triangle_sq(bvh.triangles[i], x, y, low_z, high_z))
-            if best < enough:
-                return best
+        near, far = first, first + 1
+        near_sq, far_sq = _axis_box_sq(bvh, near, x, y, low_z, high_z), _axis_box_sq(bvh, far, x, y, low_z, high_z)
+        if far_sq < near_sq:
+            near, far, near_sq, far_sq = far, near, far_sq, near_sq
+        # The nearer one is looked at first: what it finds spares much of the other.
+        if far_sq < best:
+            stack[top], stack_sq[top] = far, far_sq
+            top += 1
+        if near_sq < best:
+            stack[top], stack_sq[top] = near, near_sq
+            top += 1
     return best
+
+
+@numba.njit(cache=True, nogil=True)
+def _axis_box_sq(bvh, node, x, y, low_z, high_z):
+    dx = max(bvh.low[node, 0] - x, 0.0, x - bvh.high[node, 0])
+    dy = max(bvh.low[node, 1] - y, 0.0, y - bvh.high[node, 1])
+    dz = max(bvh.low[node, 2] - high_z, 0.0, low_z - bvh.high[node, 2])
+    return dx * dx + dy * dy + dz * dz
+
+
+@numba.njit(cache=True, nogil=True)
+def _axis_corners_sq(tri, x, y, low_z, high_z):
+    """Squared distance to the box around a triangle: a bound that costs a tenth of the distance itself."""
+    dx = max(min(tri[0, 0], tri[1, 0], tri[2, 0]) - x, 0.0, x - max(tri[0, 0], tri[1, 0], tri[2, 0]))
+    dy = max(min(tri[0, 1], tri[1, 1], tri[2, 1]) - y, 0.0, y - max(tri[0, 1], tri[1, 1], tri[2, 1]))
+    dz = max(min(tri[0, 2], tri[1, 2], tri[2, 2]) - high_z, 0.0, low_z - max(tri[0, 2], tri[1, 2], tri[2, 2]))
+    return dx * dx + dy * dy + dz * dz
 
 
 @numba.njit(cache=True, nogil=True)

@@ -81,6 +81,7 @@ class Optimiser:
         self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
         self._spacing_m = tour.length_m / (n - 1)
         self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
+        self._beside: tuple[State, int, dict[str, float]] = (self.state, -1, {})
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
@@ -136,7 +137,7 @@ class Optimiser:
         if not np.isfinite(eye).all():
             return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
         legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
-        before_cost = self._window_cost(self.state, *self.state.window(keypoint))
+        before_cost = self._cost_beside(keypoint)
         radius = float(self._radii(eye)[0])
         moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self._spacing_m)
         first, last = moved.window(keypoint)
@@ -150,6 +151,7 @@ class Optimiser:
         after_cost = self._window_cost(checked, first, last)
         cost = {name: checked.cost[name] + after_cost[name] - before_cost[name] for name in after_cost}
         self.state, self._solution = dataclasses.replace(checked, cost=cost), solution
+        self._beside = self.state, keypoint, after_cost
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
     def revise(
@@ -214,6 +216,13 @@ class Optimiser:
 
     def _stiffer(self) -> TrajoptConfig:
         return dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
+
+    def _cost_beside(self, keypoint: int) -> dict[str, float]:
+        """Returns the cost of the legs beside a keypoint, which a drag's last step has found already."""
+        state, known, cost = self._beside
+        if state is self.state and known == keypoint:
+            return cost
+        return self._window_cost(self.state, *self.state.window(keypoint))
 
     def _window_cost(self, state: State, first: int, last: int) -> dict[str, float]:
         """Returns the weighted value of each objective over all terms that the points between the two are part of."""

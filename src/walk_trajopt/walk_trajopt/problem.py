@@ -58,8 +58,10 @@ class Problem:
         for weight, objective in self._objectives.values():
             if not isinstance(objective, QuadraticObjective):
                 continue
-            product = banded_product(objective.bands, objective.target)
             self.bands += weight * objective.bands
+            if objective.target is None:
+                continue
+            product = banded_product(objective.bands, objective.target)
             self._linear += weight * product
             self._constant += weight * float(np.vdot(objective.target, product))
 

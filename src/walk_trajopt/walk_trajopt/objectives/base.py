@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import abc
 import dataclasses
+import functools
 
 import numba
 import numpy as np
@@ -56,12 +57,12 @@ class Objective(abc.ABC):
 class QuadraticObjective(Objective):
     """Σ over coordinates of (x − t)ᵀ A (x − t) with a constant pentadiagonal n × n matrix A."""
 
-    target: NDArray[np.float64]  # (n, 3) t
+    target: NDArray[np.float64] | None = None  # (n, 3) t; None for zero
     bands: NDArray[np.float64]  # (3, n) lower bands of A: A[i, i], A[i + 1, i], A[i + 2, i]
 
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the value (x − t)ᵀ A (x − t) and the gradient 2 A (x − t)."""
-        offset = x - self.target
+        offset = x if self.target is None else x - self.target
         product = banded_product(self.bands, offset)
         return float(np.vdot(offset, product)), 2.0 * product
 
@@ -121,11 +122,13 @@ def banded_product(bands: Points, x: Points) -> Points:
     return out
 
 
+@functools.lru_cache(maxsize=256)
 def difference_bands(n: int, stencil: tuple[float, ...]) -> NDArray[np.float64]:
-    """Returns the lower bands (3, n) of SᵀS, where S applies the stencil (2 or 3 numbers) to neighbouring points."""
+    """Returns the lower bands (3, n), read-only, of SᵀS; S applies the stencil (2 or 3 numbers) to neighbours."""
     bands = np.zeros((3, n))
     rows = max(n - len(stencil) + 1, 0)
     for i, a in enumerate(stencil):
         for j in range(i + 1):
             bands[i - j, j : j + rows] += a * stencil[j]
+    bands.setflags(write=False)
     return bands

@@ -35,6 +35,8 @@ class Clearance(PointwiseObjective):
         self._wish = np.full(len(above), wish) if setting.clearance_of == "eye" else np.minimum(wish, floor)
         self.pieces = 2 * len(above) + 1
         self._far = np.full((len(setting.start), 4), -np.inf)
+        self._known = np.full((len(setting.start), 2 * len(above), 5), np.inf)
+        self._known[:, :, 3] = -np.inf
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Returns the shortfalls max(D − d, 0) (n,) and their gradients (n, 3), unit vectors towards the geometry."""
@@ -55,5 +57,6 @@ class Clearance(PointwiseObjective):
 
     def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
         """Writes 0 and the shortfalls towards the nearest and the next wall, seen from each height."""
-        write_clearance(self.setting.geometry.bvh, x, self._below_eye, self._wish, self._far, values, slopes)
+        bvh = self.setting.geometry.bvh
+        write_clearance(bvh, x, self._below_eye, self._wish, self._far, self._known, values, slopes)
         bends[:] = 0.0

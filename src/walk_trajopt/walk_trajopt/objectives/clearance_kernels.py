@@ -12,12 +12,13 @@ from walk_building.bvh import closest_point
 
 # How much farther than the wish a free point looks, so that it need not look again until it has come this much nearer.
 _AHEAD_M = 0.25
+_ROUNDING_M = 1e-9
 _SAME_M = 1e-3  # less than this inside the wish is not worth a piece
 _PARALLEL = 0.999  # cosine above which two witnesses lie in one direction
 
 
 @numba.njit(cache=True, nogil=True)
-def write_clearance(bvh, x, below, wish, far, values, slopes):
+def write_clearance(bvh, x, below, wish, far, known, values, slopes):
     """Writes the pieces of each point: none at all where nothing is near, else 0 and one for each witness.
 
     A witness c, any point of the geometry, says that the shortfall is at least D − |q − c|; the nearest says what it
@@ -29,27 +30,34 @@ def write_clearance(bvh, x, below, wish, far, values, slopes):
         below: (K,) heights of the looked-at points of the axis relative to the eye, rising.
         wish: (K,) D of each.
         far: (n, 4) in and out: a place and how far from it the geometry is at least; carried on between calls.
+        known: (n, 2 K, 5) in and out: a place for each witness and how far from it the geometry is at least, and at
+            most; carried on between calls.
         values: (n, 2 K + 1) out.
         slopes: (n, 2 K + 1, 3) out.
     """
     largest = wish.max()
     for i in range(len(x)):
         values[i] = -np.inf
-        if not _near(bvh, x[i], below, largest, far[i]):
+        if not _near(bvh, x[i], below, largest, far[i], known[i]):
             continue
         for k in range(len(below)):
-            if _write_nearest(bvh, x[i], below[k], wish[k], 2 * k + 1, values[i], slopes[i]):
-                _write_next(bvh, x[i], below[k], wish[k], 2 * k + 1, values[i], slopes[i])
+            if _write_nearest(bvh, x[i], below[k], wish[k], 2 * k + 1, known[i, 2 * k], values[i], slopes[i]):
+                _write_next(bvh, x[i], below[k], wish[k], 2 * k + 1, known[i, 2 * k + 1], values[i], slopes[i])
         if values[i].max() > -np.inf:
             values[i, 0] = 0.0
             slopes[i, 0] = 0.0
 
 
 @numba.njit(cache=True, nogil=True)
-def _near(bvh, eye, below, largest, far):
+def _near(bvh, eye, below, largest, far, known):
     moved = np.sqrt((eye[0] - far[0]) ** 2 + (eye[1] - far[1]) ** 2 + (eye[2] - far[2]) ** 2)
     if far[3] - moved >= largest:
         return False
+    for k in range(len(below)):
+        place = known[2 * k]
+        moved = np.sqrt((eye[0] - place[0]) ** 2 + (eye[1] - place[1]) ** 2 + (eye[2] + below[k] - place[2]) ** 2)
+        if place[4] + moved < largest:
+            return True
     limit = (largest**2, (largest + _AHEAD_M) ** 2)
     square = axis_distance_sq(bvh, eye[0], eye[1], eye[2] + below[0], eye[2] + below[-1], limit)
     if square < limit[0]:
@@ -60,13 +68,30 @@ def _near(bvh, eye, below, largest, far):
 
 
 @numba.njit(cache=True, nogil=True)
-def _write_nearest(bvh, eye, below, wish, piece, values, slopes):
+def _closest(bvh, x, y, z, reach, known):
+    """Returns the closest point within reach, its distance and whether there is one.
+
+    Distances change by no more than the place that they are asked from moves: what is known from an earlier place
+    says where there is nothing to ask, and how far to look.
+    """
+    moved = np.sqrt((x - known[0]) ** 2 + (y - known[1]) ** 2 + (z - known[2]) ** 2)
+    if known[3] - moved >= reach:
+        return 0.0, 0.0, 0.0, reach, False
+    look = min(known[4] + moved + _ROUNDING_M, reach + _AHEAD_M)
+    cx, cy, cz, square, face = closest_point(bvh, x, y, z, look)
+    distance = np.sqrt(square)
+    known[0], known[1], known[2], known[3] = x, y, z, distance
+    known[4] = distance if face >= 0 else np.inf
+    return cx, cy, cz, distance, face >= 0 and distance < reach
+
+
+@numba.njit(cache=True, nogil=True)
+def _write_nearest(bvh, eye, below, wish, piece, known, values, slopes):
     """Writes the piece of the nearest witness seen from one height; returns whether it says anything new."""
     x, y, z = eye[0], eye[1], eye[2] + below
-    cx, cy, cz, square, face = closest_point(bvh, x, y, z, wish)
-    if face < 0:
+    cx, cy, cz, distance, found = _closest(bvh, x, y, z, wish, known)
+    if not found:
         return False
-    distance = np.sqrt(square)
     values[piece] = wish - distance
     slope = slopes[piece]
     if distance <= 1e-9:
@@ -84,13 +109,13 @@ def _write_nearest(bvh, eye, below, wish, piece, values, slopes):
 
 
 @numba.njit(cache=True, nogil=True)
-def _write_next(bvh, eye, below, wish, piece, values, slopes):
+def _write_next(bvh, eye, below, wish, piece, known, values, slopes):
     """Writes behind a piece the one of the witness that is nearest where the first one would push the body to."""
     x, y, z = eye[0], eye[1], eye[2] + below
     push = values[piece]
     sx, sy, sz = slopes[piece]
-    ox, oy, oz, _, face = closest_point(bvh, x - push * sx, y - push * sy, z - push * sz, wish - _SAME_M)
-    if face < 0:
+    ox, oy, oz, _, found = _closest(bvh, x - push * sx, y - push * sy, z - push * sz, wish - _SAME_M, known)
+    if not found:
         return
     away = np.sqrt((ox - x) ** 2 + (oy - y) ** 2 + (oz - z) ** 2)
     if away <= 1e-9 or (ox - x) * sx + (oy - y) * sy + (oz - z) * sz > _PARALLEL * away:

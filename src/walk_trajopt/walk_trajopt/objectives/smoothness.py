@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from walk_trajopt.objectives.base import QuadraticObjective, Setting, difference_bands
 
 
@@ -14,5 +12,4 @@ class Smoothness(QuadraticObjective):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
-        self.target = np.zeros_like(setting.start)
         self.bands = difference_bands(len(setting.start), (1.0, -2.0, 1.0)) / setting.spacing_m**3

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from walk_trajopt.solvers.banded import add_product, solve_banded
 
-_SOFTNESS = (0.03, 0.01, 0.003, 0.001)  # ε, in the unit of the residuals
+_SOFTNESS = (0.01, 0.001)  # ε, in the unit of the residuals
 _NEWTON_STEPS = 8  # at most, for each ε
 _HALVINGS = 6
 _ENOUGH = 1e-5  # an inner step that lowers the model by less than this share is the last for its ε
