@@ -106,8 +106,6 @@ class WebServer:
             response = _error(500, "the bridge could not answer; its log says why")
         if not response.prepared:
             response.headers.update(HEADERS)
-            if self._door.lan:
-                response.headers["Strict-Transport-Security"] = "max-age=86400"
         return response
 
     def _refuse(self, request: web.Request) -> web.Response | None:
