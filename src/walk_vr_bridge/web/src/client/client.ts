@@ -115,8 +115,9 @@ export class Client implements WireListener {
     on("playback", "std_msgs/String", (message) => store.set("playback", answers.playbackState(message, this.clock.now())));
     on("bridge/files", "std_msgs/String", (message) => this.loader.announced(answers.files(message)));
     on("bridge/session", "std_msgs/String", (message) => store.set("session", answers.session(message)));
-    on("bridge/profile", "std_msgs/String", (message) => this.takeProfile(answers.profile(message)));
     on("/diagnostics", "diagnostic_msgs/DiagnosticArray", (message) => this.takeStatuses(message));
+    const profile = { type: "std_msgs/String", compression: "cbor", optional: true } as const;
+    wire.subscribe(this.name("bridge/profile"), profile, (message) => this.takeProfile(answers.profile(message)));
     for (const topic of ["playback/seek", "playback/speed"]) wire.advertise(this.name(topic), SEEK_TYPE);
     wire.advertise(this.name("keypoint_edits"), "visualization_msgs/InteractiveMarkerFeedback");
     wire.advertise(this.name("study_events"), "diagnostic_msgs/DiagnosticArray");

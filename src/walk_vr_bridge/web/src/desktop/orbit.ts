@@ -5,6 +5,7 @@
 import { type Camera, Vector3 } from "three";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
+import { extent } from "./extent";
 import type { Viewpoint } from "./viewpoint";
 
 const TURN_RAD_PER_PX = 0.006;
@@ -44,7 +45,8 @@ export class Orbit implements Viewpoint {
   }
 
   fit(): void {
-    const { bounds, store } = this.stage;
+    const { store } = this.stage;
+    const bounds = extent(this.stage);
     this.fitted = this.stage.models !== null;
     const { building, selection } = store.state;
     const size = bounds.getSize(SIZE);

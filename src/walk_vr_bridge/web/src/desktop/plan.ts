@@ -5,6 +5,7 @@
 import { OrthographicCamera } from "three";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
+import { extent } from "./extent";
 import type { Viewpoint } from "./viewpoint";
 
 const MARGIN = 1.12;
@@ -44,7 +45,8 @@ export class Plan implements Viewpoint {
   }
 
   fit(): void {
-    const { bounds, store, models } = this.stage;
+    const { store, models } = this.stage;
+    const bounds = extent(this.stage);
     this.fittedTo = (models && store.state.building?.hash) || "";
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
     const { right, bottom } = this.covered();
