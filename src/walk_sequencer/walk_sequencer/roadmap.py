@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 import logging
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,6 +49,8 @@ class Roadmap:
     graph: csr_array  # (M, M) symmetric walking costs
     crossings: dict[tuple[int, int], tuple[int, int]]  # where an edge m < n leads along places: u of m, v of n
     joined: int  # parts that PRM* alone left apart
+    # By stand: what `ways_from` keeps of its searches, for the next tour with most of the same stands.
+    ways: dict[Any, Any] = dataclasses.field(default_factory=dict, repr=False, compare=False)
 
     @property
     def area_m2(self) -> float:
