@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every command of the README runs, as it is printed there."""
+"""Every command of the README and of the tutorial runs, as it is printed there, one after the other."""
 
 from __future__ import annotations
 
@@ -16,12 +16,17 @@ from pathlib import Path
 
 import pytest
 
+from walk_bringup.bootstrap.commands import COMMANDS
+
 ROOT = Path(__file__).resolve().parents[1]
 LIMIT_S = 240.0
 
 # What to wait for before a command that runs until Ctrl-C is told to end.
 UNTIL = {
+    "./walk up house.ifc": "a walk past",
+    "./walk replay out/house/tour.mcap --start 10": "replaying",
     "./walk up": "a walk past",
+    "./walk up src/walk_bringup/buildings/sample.ifc": "a walk past",
     "./walk run walk_importance importance --ros-args -r __ns:=/walk": "loaded",
     "./walk record --out out/session": "recording",
     "./walk replay out/building/tour.mcap": "replaying",
@@ -30,26 +35,36 @@ UNTIL = {
 OURSELVES = {"./walk test", "./walk check"}
 
 
-def commands() -> list[str]:
-    blocks = re.findall(r"```sh\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), flags=re.S)
-    return [line for block in blocks for line in block.splitlines() if line.strip()]
+PAGES = ("README.md", "docs/quickstart.md", "docs/tutorial.md")
+
+
+def commands() -> list[tuple[str, str]]:
+    found = []
+    for page in PAGES:
+        blocks = re.findall(r"```sh\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), flags=re.S)
+        found += [(page, line) for block in blocks for line in block.splitlines() if line.strip()]
+    return found
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     if not (ROOT / "build" / "walk" / "environment.json").exists():
         pytest.skip("this checkout was not set up by ./walk")
-    made = tmp_path_factory.mktemp("readme")
-    # The user's own building, and the command as seen from the checkout's folder.
-    shutil.copy(ROOT / "src/walk_bringup/buildings/sample.ifc", made / "building.ifc")
-    (made / "walk").symlink_to(ROOT / "walk")
+    made = {page: tmp_path_factory.mktemp(Path(page).stem) for page in PAGES}
+    for folder in made.values():
+        # The user's own building, and what is in the checkout as seen from its folder.
+        for name in ("building.ifc", "house.ifc"):
+            shutil.copy(ROOT / "src/walk_bringup/buildings/sample.ifc", folder / name)
+        for name in ("walk", "examples", "src"):
+            (folder / name).symlink_to(ROOT / name)
     return made
 
 
 @pytest.mark.slow
 @pytest.mark.ros
-@pytest.mark.parametrize("command", commands())
-def test_command_of_the_readme_runs(command: str, folder: Path) -> None:
+@pytest.mark.parametrize(("page", "command"), commands())
+def test_command_of_the_page_runs(page: str, command: str, folders: dict[str, Path]) -> None:
+    folder = folders[page]
     wanted = f"{command} --help" if command in OURSELVES else command
     # The journal of edits goes to the folder, not to the home of whoever runs the tests.
     environment = os.environ | {"XDG_STATE_HOME": str(folder / "state")}
@@ -85,5 +100,5 @@ def _output(process: subprocess.Popen[bytes], until: str | None) -> str:
 
 def test_the_readme_names_every_command() -> None:
     text = (ROOT / "README.md").read_text(encoding="utf-8")
-    for name in ("up", "plan", "run", "record", "replay", "test", "check", "bench", "params", "doctor"):
+    for name in sorted(set(COMMANDS) - {"setup"}):
         assert f"./walk {name}" in text

@@ -24,7 +24,10 @@ def test_launch_file_describes_every_argument() -> None:
         for call in _calls("DeclareLaunchArgument")
         if isinstance(call.args[0], ast.Constant)
     }
-    assert set(declared) == {"building", "namespace", "params_file", "log_level", "use_sim_time"}
+    assert set(declared) == {
+        *("building", "namespace", "params_file", "log_level", "use_sim_time", "respawn"),
+        *("port", "lan", "parent_frame", "pose"),
+    }
     assert all("description" in keywords and "default_value" in keywords for keywords in declared.values())
 
 

@@ -110,3 +110,12 @@ def test_colcon_runs_the_tests_of_each_package() -> None:
     assert set(PACKAGES) <= set(names)
     for name, entry in names.items():
         assert entry["pytest-args"][-1] == f"../../tests/{name}"
+
+
+@pytest.mark.parametrize("folder", FOLDERS, ids=IDS)
+def test_package_has_a_changelog_where_ros_looks_for_it(folder: Path) -> None:
+    text = (folder / "CHANGELOG.rst").read_text(encoding="utf-8")
+    title = f"Changelog for package {folder.name}"
+    bar = "^" * len(title)
+    assert f"{bar}\n{title}\n{bar}\n" in text
+    assert re.search(r"^(Forthcoming|\d+\.\d+\.\d+ \(\d{4}-\d\d-\d\d\))\n-+\n\* ", text, re.MULTILINE)

@@ -2,15 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node graph for `ros2 launch walk_bringup walk.launch.py`."""
 
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-from launch import LaunchDescription
+from launch import LaunchContext, LaunchDescription
 
-NODES = {"importance": "walk_importance", "sequencer": "walk_sequencer", "trajopt": "walk_trajopt"}
+NODES = {
+    "importance": "walk_importance",
+    "sequencer": "walk_sequencer",
+    "trajopt": "walk_trajopt",
+    "vr_bridge": "walk_vr_bridge",
+}
+PLACE = ("x", "y", "z", "yaw", "pitch", "roll")
 
 
 def generate_launch_description() -> LaunchDescription:
@@ -28,11 +34,28 @@ def generate_launch_description() -> LaunchDescription:
         ),
         DeclareLaunchArgument("log_level", default_value="info", description="debug, info, warn, error or fatal."),
         DeclareLaunchArgument("use_sim_time", default_value="false", description="Take the time from /clock."),
+        DeclareLaunchArgument(
+            "respawn", default_value="true", description="Start a node again that died; it picks up where it was."
+        ),
+        DeclareLaunchArgument("port", default_value="8765", description="Port of the headset page."),
+        DeclareLaunchArgument("lan", default_value="false", description="Let other machines in, with TLS and a token."),
+        DeclareLaunchArgument(
+            "parent_frame", default_value="", description="Frame of the world that the building stands in; empty: none."
+        ),
+        DeclareLaunchArgument(
+            "pose",
+            default_value="0 0 0 0 0 0",
+            description="Where the frame map is in parent_frame: x y z [m] yaw pitch roll [rad].",
+        ),
     ]
     overrides = {
         # A path of digits alone would otherwise be read as a number.
         "building": ParameterValue(LaunchConfiguration("building"), value_type=str),
         "use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool),
+    }
+    bridge = {
+        "bridge.port": ParameterValue(LaunchConfiguration("port"), value_type=int),
+        "bridge.lan": ParameterValue(LaunchConfiguration("lan"), value_type=bool),
     }
     nodes = [
         Node(
@@ -40,11 +63,31 @@ def generate_launch_description() -> LaunchDescription:
             executable=name,
             name=name,
             namespace=LaunchConfiguration("namespace"),
-            parameters=[LaunchConfiguration("params_file"), overrides],
+            parameters=[LaunchConfiguration("params_file"), overrides, *([bridge] if name == "vr_bridge" else [])],
+            respawn=LaunchConfiguration("respawn"),
+            respawn_delay=1.0,
             arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],
             output="screen",
             emulate_tty=True,
         )
         for name, package in NODES.items()
     ]
-    return LaunchDescription([*arguments, *nodes])
+    return LaunchDescription([*arguments, *nodes, OpaqueFunction(function=_transform)])
+
+
+def _transform(context: LaunchContext) -> list[Node]:
+    """Returns the publisher of where the building stands in a larger world, none where there is no such world."""
+    parent = LaunchConfiguration("parent_frame").perform(context)
+    if not parent:
+        return []
+    numbers = LaunchConfiguration("pose").perform(context).split()
+    if len(numbers) != len(PLACE):
+        raise ValueError(f"pose:='{' '.join(numbers)}' must have six numbers: {' '.join(PLACE)}")
+    placed = [part for name, number in zip(PLACE, numbers, strict=True) for part in (f"--{name}", number)]
+    return [
+        Node(
+            package="tf2_ros",
+            executable="static_transform_publisher",
+            arguments=[*placed, "--frame-id", parent, "--child-frame-id", "map"],
+        )
+    ]

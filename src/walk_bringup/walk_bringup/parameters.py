@@ -16,11 +16,13 @@ from walk_importance.config import ImportanceConfig, KeypointConfig
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_trajopt.config import TimingConfig, TrajoptConfig
+from walk_vr_bridge.config import BridgeConfig
 
 NODE_CONFIGS: Mapping[str, Mapping[str, type[Config]]] = {
     "importance": {"importance": ImportanceConfig, "keypoints": KeypointConfig},
     "sequencer": {"sequencer": SequencerConfig, "editing": EditingConfig},
     "trajopt": {"trajopt": TrajoptConfig, "timing": TimingConfig},
+    "vr_bridge": {"bridge": BridgeConfig},
 }
 """Config classes by node and parameter group; every node has `load` and `walker` beside them."""
 
@@ -41,6 +43,40 @@ def parameters_yaml() -> str:
     for node, configs in NODE_CONFIGS.items():
         lines += _node(f"/**/{node}", configs, ())
     return "\n".join(lines) + "\n"
+
+
+_PAGE = """\
+# Parameters
+
+<!-- Made by `./walk params --markdown`, do not edit. -->
+
+What a user can tune, all of it while the nodes run: on the headset's page, with `ros2 param set`, in a copy of
+`config/walk.yaml`, and, where it matters most, as an option of `./walk plan`. `load` and `walker` are the same for all
+nodes. Whatever does not fit is refused with the reason, and what was in force stays.
+"""
+
+
+def parameters_markdown() -> str:
+    """Returns the page of the documentation: a table for each group."""
+    lines = [_PAGE.rstrip()]
+    nodes = {"all nodes": SHARED, **{f"node `{node}`": configs for node, configs in NODE_CONFIGS.items()}}
+    for node, configs in nodes.items():
+        for group, config in configs.items():
+            lines += ["", f"## {group}", "", f"*{node[0].upper()}{node[1:]}*", ""]
+            lines += ["| parameter | default | may be | what it does |", "|---|---|---|---|"]
+            for field in dataclasses.fields(config):  # type: ignore[arg-type]
+                cells = (
+                    f"`{group}.{field.name}`",
+                    f"`{yaml_value(field.default)}`",
+                    limits(field),
+                    field.metadata["doc"],
+                )
+                lines.append("| " + " | ".join(_cell(text) for text in cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("<", "&lt;") if not text.startswith("`") else text.replace("|", "\\|")
 
 
 def _node(name: str, configs: Mapping[str, type[Config]], first: tuple[str, ...]) -> Iterator[str]:
@@ -64,17 +100,21 @@ def yaml_value(value: Any) -> str:
 
 def describe(field: dataclasses.Field[Any]) -> str:
     """Returns what a parameter does, with its unit and what it may be."""
+    what = limits(field, " | ")
+    return str(field.metadata["doc"]) + (f" [{what}]" if what else "")
+
+
+def limits(field: dataclasses.Field[Any], between: str = ", ") -> str:
+    """Returns a parameter's unit and what it may be, "" where it may be anything of its type."""
     meta = field.metadata
     low, high = meta["low"], meta["high"]
-    limits = []
-    if meta["unit"]:
-        limits.append(meta["unit"])
+    parts = [meta["unit"]] if meta["unit"] else []
     if meta["choices"]:
-        limits.append(" | ".join(meta["choices"]))
+        parts.append(between.join(meta["choices"]))
     if low is not None and high is not None:
-        limits.append(f"{low:g} to {high:g}")
+        parts.append(f"{low:g} to {high:g}")
     elif low is not None:
-        limits.append(f"at least {low:g}")
+        parts.append(f"at least {low:g}")
     elif high is not None:
-        limits.append(f"at most {high:g}")
-    return meta["doc"] + (f" [{', '.join(limits)}]" if limits else "")
+        parts.append(f"at most {high:g}")
+    return ", ".join(parts)

@@ -16,6 +16,7 @@ COMMANDS = {
     "bench": "Measure every stage, side by side with the plain way, as JSON.",
     "test": "Run the tests; arguments go to pytest.",
     "check": "Check format, lint, types and the rules of the house.",
+    "docs": "Build the documentation as a site.",
     "setup": "Install and build what is missing and do nothing else.",
     "doctor": "Report what this machine has and lacks, and what to do about it.",
 }

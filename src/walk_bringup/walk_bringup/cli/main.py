@@ -26,6 +26,7 @@ _MODULES = {
     "bench": "bench",
     "test": "develop",
     "check": "develop",
+    "docs": "docs",
     "setup": "machine",
     "doctor": "machine",
 }

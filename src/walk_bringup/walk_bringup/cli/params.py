@@ -10,7 +10,8 @@ from walk_bringup.bootstrap.commands import COMMANDS
 
 
 @click.command(short_help=COMMANDS["params"])
-def params() -> int:
+@click.option("--markdown", is_flag=True, help="As the page of the documentation instead.")
+def params(markdown: bool) -> int:
     """Print all parameters of the nodes with defaults, units and ranges as YAML.
 
     The output is what src/walk_bringup/config/walk.yaml holds; a copy of it is a file for --params-file.
@@ -20,9 +21,10 @@ def params() -> int:
       ./walk params
       ./walk params > my.yaml
       ./walk up --params-file my.yaml
+      ./walk params --markdown > docs/parameters.md
     """
     # Imported here: the configs bring all of the cores with them.
-    from walk_bringup.parameters import parameters_yaml
+    from walk_bringup.parameters import parameters_markdown, parameters_yaml
 
-    print(parameters_yaml(), end="")
+    print(parameters_markdown() if markdown else parameters_yaml(), end="")
     return 0

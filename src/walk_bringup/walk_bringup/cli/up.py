@@ -14,14 +14,16 @@ import click
 
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
-from walk_bringup.cli.executables import executables, find_executable
+from walk_bringup.cli.executables import find_executable
 from walk_bringup.cli.processes import Child, Supervisor
 
-NODES = {"importance": "walk_importance", "sequencer": "walk_sequencer", "trajopt": "walk_trajopt"}
+NODES = {
+    "importance": "walk_importance",
+    "sequencer": "walk_sequencer",
+    "trajopt": "walk_trajopt",
+    "vr_bridge": "walk_vr_bridge",
+}
 """The nodes and their packages, in the order of the data flow."""
-
-OPTIONAL_NODES = {"vr_bridge": "walk_vr_bridge"}
-"""Nodes that are started where their package is built."""
 
 TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, path, trajectory, /diagnostics"
 
@@ -30,10 +32,22 @@ TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, 
 @click.argument("building", type=click.Path(path_type=Path), required=False)
 @click.option("--param", "params", multiple=True, metavar="NODE.NAME=VALUE", help="Set a parameter of a node.")
 @click.option("--params-file", type=click.Path(path_type=Path), help="YAML of parameters; ./walk params prints one.")
+@click.option("--lan", is_flag=True, help="Let headsets and other machines in: TLS, a token and a QR code.")
+@click.option("--port", type=click.IntRange(0, 65535), help="Port of the headset page; 0 takes a free one.")
 @click.option("--namespace", default="walk", show_default=True, help="Namespace of the nodes and topics.")
 @click.option("--log-level", type=click.Choice(["debug", "info", "warn", "error"]), default="info", show_default=True)
-def up(building: Path | None, params: tuple[str, ...], params_file: Path | None, namespace: str, log_level: str) -> int:
+def up(
+    building: Path | None,
+    params: tuple[str, ...],
+    params_file: Path | None,
+    lan: bool,
+    port: int | None,
+    namespace: str,
+    log_level: str,
+) -> int:
     """Start the node graph on BUILDING (default: the sample building); Ctrl-C stops all.
+
+    It prints the address of the page on which the walk is seen and edited, in a browser or a headset.
 
     ROS_DOMAIN_ID is kept where it is set; nodes are found on this machine only, unless
     ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise.
@@ -42,24 +56,25 @@ def up(building: Path | None, params: tuple[str, ...], params_file: Path | None,
     Examples:
       ./walk up
       ./walk up building.ifc
+      ./walk up building.ifc --lan
       ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
     """
-    nodes = NODES | {name: package for name, package in OPTIONAL_NODES.items() if executables(package)}
+    params = (*bridge_params(lan, port), *params)
     shared = ros_arguments(building, params_file, namespace, log_level)
     with tempfile.TemporaryDirectory(prefix="walk_") as folder:
         own = Path(folder) / "params.yaml"
-        own.write_text(overrides_yaml(params, list(nodes)), encoding="utf-8")
+        own.write_text(overrides_yaml(params, list(NODES)), encoding="utf-8")
         # The last file wins; a plain `-p` would lose against the same parameter in --params-file.
         last = ["--params-file", str(own)] if params else []
         supervisor = Supervisor(
             [
                 Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last))
-                for name, package in nodes.items()
+                for name, package in NODES.items()
             ]
         )
         supervisor.start()
         domain = os.environ.get("ROS_DOMAIN_ID", "0")
-        supervisor.say(f"walk: {', '.join(nodes)} started on {building or 'the sample building'}, ROS domain {domain}.")
+        supervisor.say(f"walk: {', '.join(NODES)} started on {building or 'the sample building'}, ROS domain {domain}.")
         supervisor.say(f"walk: topics under /{namespace.strip('/')}: {TOPICS}.")
         supervisor.say("walk: Ctrl-C stops all.")
         supervisor.wait()
@@ -68,6 +83,12 @@ def up(building: Path | None, params: tuple[str, ...], params_file: Path | None,
         return 1
     supervisor.say("walk: all nodes have ended.")
     return 0
+
+
+def bridge_params(lan: bool, port: int | None) -> tuple[str, ...]:
+    """Returns what the options about the page mean as parameters."""
+    ports = () if port is None else (f"vr_bridge.bridge.port={port}",)
+    return (*(("vr_bridge.bridge.lan=true",) if lan else ()), *ports)
 
 
 def ros_arguments(building: Path | None, params_file: Path | None, namespace: str, log_level: str) -> list[str]:
