@@ -3,6 +3,7 @@
 import "./page.css";
 import { browserClient } from "./client/client";
 import { mountDesktop } from "./desktop/index";
+import { XrPanel } from "./panel/xr_panel";
 import { Stage } from "./scene/stage";
 import { View } from "./scene/view";
 import { XrRoom } from "./xr/room";
@@ -13,8 +14,8 @@ async function start(canvas: HTMLCanvasElement): Promise<void> {
   const view = new View(canvas);
   const stage = new Stage(view, client.store);
   const xr = new XrEntry(view);
-  const room = new XrRoom(view, stage, client.store, client.actions, null);
   const desktop = mountDesktop(view, stage, client, xr);
+  const room = new XrRoom(view, stage, client.store, client.actions, new XrPanel(desktop.panel));
   xr.onChange = (inside) => room.setInside(inside);
   view.start();
   void client.start();

@@ -78,7 +78,9 @@ export class Handler {
       this.pick.id = null;
       this.knob = null;
     }
-    world.panel?.point(hand.side, panelAt < Infinity ? this.at : null);
+    hand.atPanel = panelAt < Infinity && this.pick.id === null;
+    world.panel?.point(hand.side, hand.atPanel ? this.at : null);
+    if (hand.atPanel && Math.abs(hand.stickY) > 0.2) world.panel?.scroll(hand.side, hand.stickY);
     this.reach = this.pick.id !== null ? this.pick.distance : panelAt;
     const hovered = this.pick.id ?? this.knob;
     if (hovered !== this.hovered && hovered !== null) hand.pulse(...TICK.hover);
@@ -167,6 +169,7 @@ export class Handler {
     if (this.doing === "panel") this.world.panel?.release(this.hand.side, null);
     this.doing = "nothing";
     this.pick.id = null;
+    this.hand.atPanel = false;
     this.reach = Infinity;
   }
 }

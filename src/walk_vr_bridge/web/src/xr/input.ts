@@ -33,6 +33,8 @@ export class HandInput {
   stickX = 0;
   stickY = 0;
   source: XRInputSource | null = null;
+  /** Its ray is on the panel: the stick scrolls there and moves nobody. */
+  atPanel = false;
   private pinching = false;
   /** Select events of sources that have no gamepad. */
   private selecting = false;

@@ -41,9 +41,11 @@ export class Travel {
     const strong = inputs.of(settings.hand);
     const weak = inputs.other(strong);
     this.jumped = false;
-    this.turn(strong, settings, seconds);
-    this.walk(settings.teleport ? weak : strong.stickY !== 0 ? strong : weak, seconds);
-    if (settings.teleport && strong.forward.pressed) this.aiming = strong;
+    this.speed = 0;
+    if (!strong.atPanel) this.turn(strong, settings, seconds);
+    const walking = settings.teleport ? weak : strong.stickY !== 0 ? strong : weak;
+    if (!walking.atPanel) this.walk(walking, seconds);
+    if (settings.teleport && strong.forward.pressed && !strong.atPanel) this.aiming = strong;
     this.aim(settings);
   }
 
