@@ -47,6 +47,16 @@ def test_many_small_drags_end_where_one_large_one_does(optimiser: Optimiser) -> 
     assert np.abs(dragged.length_m - jumped.length_m) < 0.1
 
 
+def test_costs_kept_beside_an_edit_are_those_of_the_whole_path(optimiser: Optimiser) -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(12):
+        keypoint = int(rng.integers(5))
+        assert optimiser.move_keypoint(keypoint, (*rng.uniform([1, 1], [11, 7]), 1.6)).accepted
+        kept, whole = optimiser.state.terms, optimiser._terms(optimiser.state)
+        for name, terms in whole.items():
+            np.testing.assert_allclose(kept[name], terms, atol=1e-9, err_msg=name)
+
+
 def test_a_state_taken_back_undoes_bit_for_bit(optimiser: Optimiser) -> None:
     state, path = optimiser.state, optimiser.path()
     assert optimiser.move_keypoint(1, (2, 5, 1.6)).accepted

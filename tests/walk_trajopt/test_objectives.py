@@ -93,6 +93,19 @@ def test_value_does_not_depend_on_the_number_of_points(name: str, sloping: Build
     assert values[1] == pytest.approx(values[0], rel=0.03)
 
 
+@pytest.mark.parametrize("name", NAMES)
+def test_terms_sum_up_to_the_value_and_are_local(name: str, sloping: Building, make_setting: MakeSetting) -> None:
+    start = line(20, (3, 0.7), (9, 0.7))
+    objective = OBJECTIVES[name](make_setting(sloping, start))
+    x = wiggled(start, 0.3)
+    terms = objective.terms(x)
+    assert terms.shape == (20,) and terms.sum() == pytest.approx(objective.evaluate(x)[0], rel=1e-9)
+    moved = x.copy()
+    moved[10, 1] += 0.1
+    changed = np.flatnonzero(np.abs(objective.terms(moved) - terms) > 1e-12)
+    assert set(changed) <= {8, 9, 10}, "a term is about the point that has it and the two that follow"
+
+
 @pytest.mark.parametrize("of", ["body", "eye"])
 @pytest.mark.parametrize("name", NAMES)
 def test_the_largest_piece_is_the_residual(name: str, of: str, sloping: Building, make_setting: MakeSetting) -> None:
@@ -197,5 +210,5 @@ def test_fixed_points_have_no_gradient_and_costs_add_up(hall: Building, make_set
     x = wiggled(start, 0.2)
     value, gradient = problem.evaluate(x)
     assert (gradient[fixed] == 0).all() and (gradient[~fixed] != 0).any()
-    assert value == pytest.approx(sum(problem.costs(x).values()))
+    assert value == pytest.approx(sum(terms.sum() for terms in problem.terms(x).values()))
     assert problem.linearise(x).value == pytest.approx(value)

@@ -17,6 +17,8 @@ from walk_building.walker import Walker
 # differ about contact is it asked.
 _DOUBT_M = 2e-4
 
+_AHEAD_M = 0.4  # how far ahead is looked at least: fewer questions, each a little longer
+
 _HITS, _ASKS, _PASSES = 0, 1, 2
 
 
@@ -59,25 +61,36 @@ class PathCheck:
 def _sweep(bvh, eyes, low, high, touching, clear, found):
     """Writes for each segment whether the body's axis comes nearer than `touching` to a triangle, or than `clear`.
 
-    Conservative advancement: an axis that is c farther than `clear` from everything may move on by c and more.
+    Conservative advancement: an axis that is c farther than `clear` from everything may move on by c, over as many
+    segments as that reaches.
     """
+    anchor, reach = eyes[0], -1.0
     for i in range(len(found)):
+        if max(_apart(anchor, eyes[i]), _apart(anchor, eyes[i + 1])) <= reach:
+            found[i] = _PASSES
+            continue
         move = eyes[i + 1] - eyes[i]
         length = np.sqrt(move[0] ** 2 + move[1] ** 2 + move[2] ** 2)
-        # What is farther than the segment is long matters to nobody.
-        limit = (touching**2, (clear + length + _DOUBT_M) ** 2)
+        limit = (touching**2, (clear + max(length, _AHEAD_M) + _DOUBT_M) ** 2)
         at = 0.0
         found[i] = _PASSES
         while at < length or at == 0.0:
             share = at / length if length > 0.0 else 0.0
             x, y, z = eyes[i, 0] + share * move[0], eyes[i, 1] + share * move[1], eyes[i, 2] + share * move[2]
             distance = np.sqrt(axis_distance_sq(bvh, x, y, z + low, z + high, limit))
+            if at == 0.0:
+                anchor, reach = eyes[i], distance - clear
             if distance <= clear:
                 found[i] = _HITS if distance < touching else _ASKS
             if distance < touching:
                 break
             # In doubt it goes on, in steps of the doubt itself: there may be a hit ahead.
             at += max(distance - clear, clear - touching)
+
+
+@numba.njit(cache=True, nogil=True)
+def _apart(a, b):
+    return np.sqrt((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (a[2] - b[2]) ** 2)
 
 
 def colliding_runs(free: NDArray[np.bool_], arc_m: NDArray[np.float64], gap_m: float) -> list[tuple[float, float]]:

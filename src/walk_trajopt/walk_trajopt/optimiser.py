@@ -81,7 +81,8 @@ class Optimiser:
         self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
         self._spacing_m = tour.length_m / (n - 1)
         self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
-        self._beside: tuple[State, int, dict[str, float]] = (self.state, -1, {})
+        # The points that were solved last and their problem, which knows much about the geometry around them.
+        self._solved: tuple[NDArray[np.float64], Problem] | None = None
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
@@ -98,13 +99,13 @@ class Optimiser:
             other = self._solve(dataclasses.replace(start, x=wide.x), 0, last)
             self._solution = min(self._solution, other, key=lambda solution: solution.cost)
         solved = dataclasses.replace(start, x=self._solution.x)
-        self.state = dataclasses.replace(solved, cost=self._window_cost(solved, 0, len(start.x) - 1))
+        self.state = dataclasses.replace(solved, terms=self._terms(solved))
 
     def check(self) -> OptimisedPath:
         """Sweeps the body along the whole path, repairs it where it does not pass, and returns it."""
         last = len(self.state.x) - 1
         checked = self._checked(self.state, 0, last)
-        self.state = dataclasses.replace(checked, cost=self._window_cost(checked, 0, last))
+        self.state = dataclasses.replace(checked, terms=self._terms(checked))
         return self.path()
 
     def move_keypoint(
@@ -137,7 +138,6 @@ class Optimiser:
         if not np.isfinite(eye).all():
             return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
         legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
-        before_cost = self._cost_beside(keypoint)
         radius = float(self._radii(eye)[0])
         moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self._spacing_m)
         first, last = moved.window(keypoint)
@@ -147,11 +147,8 @@ class Optimiser:
         if stuck:
             reason = f"the body would touch the building {len(stuck)} times beside keypoint {keypoint}"
             return EditOutcome(path=self.path(), accepted=False, reason=reason)
-        # Beside the window nothing has changed, so neither has the cost there.
-        after_cost = self._window_cost(checked, first, last)
-        cost = {name: checked.cost[name] + after_cost[name] - before_cost[name] for name in after_cost}
-        self.state, self._solution = dataclasses.replace(checked, cost=cost), solution
-        self._beside = self.state, keypoint, after_cost
+        self.state = dataclasses.replace(checked, terms=self._spliced_terms(checked, first, last))
+        self._solution = solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
     def revise(
@@ -180,7 +177,7 @@ class Optimiser:
         for first, last in windows:
             self._solution = self._solve(state, first, last)
             state = self._checked(dataclasses.replace(state, x=self._solution.x), first, last)
-        self.state = dataclasses.replace(state, cost=self._window_cost(state, 0, len(state.x) - 1))
+        self.state = dataclasses.replace(state, terms=self._terms(state))
         return True
 
     def path(self) -> OptimisedPath:
@@ -212,23 +209,28 @@ class Optimiser:
             self.watch(problem, state.x[low:high], solution.cost)
         x = state.x.copy()
         x[low:high] = solution.x
+        self._solved = (x, problem) if config is self.config else None
         return dataclasses.replace(solution, x=x)
 
     def _stiffer(self) -> TrajoptConfig:
         return dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
 
-    def _cost_beside(self, keypoint: int) -> dict[str, float]:
-        """Returns the cost of the legs beside a keypoint, which a drag's last step has found already."""
-        state, known, cost = self._beside
-        if state is self.state and known == keypoint:
-            return cost
-        return self._window_cost(self.state, *self.state.window(keypoint))
+    def _terms(self, state: State) -> dict[str, NDArray[np.float64]]:
+        free = np.zeros(len(state.x), bool)
+        return Problem(self._setting(state, 0, len(state.x)), self.config, free).terms(state.x)
 
-    def _window_cost(self, state: State, first: int, last: int) -> dict[str, float]:
-        """Returns the weighted value of each objective over all terms that the points between the two are part of."""
+    def _spliced_terms(self, state: State, first: int, last: int) -> dict[str, NDArray[np.float64]]:
+        """Returns the terms of a state that differs from the present one between two points: beside, they stay."""
         low, high = _around(state, first, last)
-        problem = Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool))
-        return problem.costs(state.x[low:high])
+        if self._solved is not None and self._solved[0] is state.x:
+            problem = self._solved[1]
+        else:
+            problem = Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool))
+        new, added = problem.terms(state.x[low:high]), len(state.x) - len(self.state.x)
+        return {
+            name: np.concatenate([old[:low], new[name][: last - low], old[last - added :]])
+            for name, old in self.state.terms.items()
+        }
 
     def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""

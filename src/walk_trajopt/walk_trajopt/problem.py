@@ -85,18 +85,9 @@ class Problem:
         value += sum_of_squares(values, self.first, self.scale)
         return Local(value=value, gradient=gradient, values=values, slopes=slopes, bends=bends)
 
-    def costs(self, x: NDArray[np.float64]) -> dict[str, float]:
-        """Returns the weighted value of each objective at points `x` (n, 3), by name."""
-        here, pointwise = self.linearise(x), 0
-        out = {}
-        for name, (weight, objective) in self._objectives.items():
-            if isinstance(objective, PointwiseObjective):
-                first, scale = self.first[pointwise : pointwise + 2], self.scale[pointwise : pointwise + 1]
-                out[name] = float(sum_of_squares(here.values, first, scale))
-                pointwise += 1
-            else:
-                out[name] = weight * objective.evaluate(x)[0]
-        return out
+    def terms(self, x: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """Returns the weighted terms (n,) of each objective at points `x` (n, 3), by name."""
+        return {name: weight * objective.terms(x) for name, (weight, objective) in self._objectives.items()}
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         product = banded_product(self.bands, x)

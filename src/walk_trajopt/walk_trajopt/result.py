@@ -30,7 +30,7 @@ def path_of(state: State, solution: Solution, solver: str) -> OptimisedPath:
     return OptimisedPath(
         points=read_only(points),
         keypoint_index=np.where(nearer, before, after),
-        cost=dict(state.cost),
+        cost=state.cost,
         iterations=solution.iterations,
         evaluations=solution.evaluations,
         solver=solver,

@@ -33,7 +33,7 @@ class State:
         x: (n, 3) the optimised points.
         way: The checked curve through them.
         mended: What the repair did.
-        cost: Weighted value of each objective at `x`, by name.
+        terms: The weighted terms (n,) of each objective at `x`, by name.
     """
 
     tour: Polyline
@@ -47,7 +47,12 @@ class State:
     x: NDArray[np.float64]
     way: Way
     mended: tuple[Mended, ...]
-    cost: dict[str, float]
+    terms: dict[str, NDArray[np.float64]]
+
+    @property
+    def cost(self) -> dict[str, float]:
+        """Weighted value of each objective at `x`, by name."""
+        return {name: float(values.sum()) for name, values in self.terms.items()}
 
     def window(self, keypoint: int) -> tuple[int, int]:
         """Returns the first and the last point of the legs beside a keypoint."""
@@ -84,7 +89,7 @@ def initial_state(
         x=points,
         way=Way(points=points, tour_m=samples.arc_m),
         mended=(),
-        cost={},
+        terms={},
     )
 
 

@@ -53,6 +53,10 @@ class Objective(abc.ABC):
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the value at points `x` (n, 3) and its gradient (n, 3)."""
 
+    @abc.abstractmethod
+    def terms(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Returns the terms (n,) whose sum is the value, each at the first of the neighbouring points it is about."""
+
 
 class QuadraticObjective(Objective):
     """Σ over coordinates of (x − t)ᵀ A (x − t) with a constant pentadiagonal n × n matrix A."""
@@ -104,6 +108,14 @@ class PointwiseObjective(Objective):
         h = self.setting.spacing_m
         return h * float(r @ r), 2.0 * h * r[:, None] * jacobian
 
+    def terms(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Returns h r² (n,)."""
+        shape = len(x), self.pieces
+        values, slopes, bends = np.empty(shape), np.empty((*shape, 3)), np.empty(shape)
+        self.write_pieces(x, values, slopes, bends)
+        largest = values.max(axis=1)
+        return self.setting.spacing_m * np.where(largest > -np.inf, largest, 0.0) ** 2
+
 
 @numba.njit(cache=True, nogil=True)
 def banded_product(bands: Points, x: Points) -> Points:
@@ -119,6 +131,14 @@ def banded_product(bands: Points, x: Points) -> Points:
                 if i >= k:
                     total += bands[k, i - k] * x[i - k, c]
             out[i, c] = total
+    return out
+
+
+def difference_terms(x: NDArray[np.float64], order: int) -> NDArray[np.float64]:
+    """Returns the squared length (n,) of each difference of that order, at the first of its points."""
+    out = np.zeros(len(x))
+    difference = np.diff(x, order, axis=0)
+    out[: len(difference)] = np.einsum("ij,ij->i", difference, difference)
     return out
 
 

@@ -35,7 +35,7 @@ class Clearance(PointwiseObjective):
         self._wish = np.full(len(above), wish) if setting.clearance_of == "eye" else np.minimum(wish, floor)
         self.pieces = 2 * len(above) + 1
         self._far = np.full((len(setting.start), 4), -np.inf)
-        self._known = np.full((len(setting.start), 2 * len(above), 5), np.inf)
+        self._known = np.full((len(setting.start), 2 * len(above), 8), np.inf)
         self._known[:, :, 3] = -np.inf
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

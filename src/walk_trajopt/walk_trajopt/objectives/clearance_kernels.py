@@ -30,8 +30,8 @@ def write_clearance(bvh, x, below, wish, far, known, values, slopes):
         below: (K,) heights of the looked-at points of the axis relative to the eye, rising.
         wish: (K,) D of each.
         far: (n, 4) in and out: a place and how far from it the geometry is at least; carried on between calls.
-        known: (n, 2 K, 5) in and out: a place for each witness and how far from it the geometry is at least, and at
-            most; carried on between calls.
+        known: (n, 2 K, 8) in and out: a place for each witness, how far from it the geometry is at least, and at
+            most, and the closest point; carried on between calls.
         values: (n, 2 K + 1) out.
         slopes: (n, 2 K + 1, 3) out.
     """
@@ -77,11 +77,14 @@ def _closest(bvh, x, y, z, reach, known):
     moved = np.sqrt((x - known[0]) ** 2 + (y - known[1]) ** 2 + (z - known[2]) ** 2)
     if known[3] - moved >= reach:
         return 0.0, 0.0, 0.0, reach, False
+    if moved == 0.0 and known[4] < reach:
+        return known[5], known[6], known[7], known[4], True
     look = min(known[4] + moved + _ROUNDING_M, reach + _AHEAD_M)
     cx, cy, cz, square, face = closest_point(bvh, x, y, z, look)
     distance = np.sqrt(square)
     known[0], known[1], known[2], known[3] = x, y, z, distance
     known[4] = distance if face >= 0 else np.inf
+    known[5], known[6], known[7] = cx, cy, cz
     return cx, cy, cz, distance, face >= 0 and distance < reach
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from walk_trajopt.objectives.base import QuadraticObjective, Setting
+from walk_trajopt.objectives.base import Points, QuadraticObjective, Setting
 
 
 class Deviation(QuadraticObjective):
@@ -17,3 +17,8 @@ class Deviation(QuadraticObjective):
         self.target = setting.start
         self.bands = np.zeros((3, len(setting.start)))
         self.bands[0] = setting.spacing_m
+
+    def terms(self, x: Points) -> Points:
+        """Returns the terms (n,) of the sum."""
+        offset = x - self.setting.start
+        return np.asarray(self.setting.spacing_m * np.einsum("ij,ij->i", offset, offset))

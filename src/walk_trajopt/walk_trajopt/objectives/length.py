@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from walk_trajopt.objectives.base import QuadraticObjective, Setting, difference_bands
+from walk_trajopt.objectives.base import Points, QuadraticObjective, Setting, difference_bands, difference_terms
 
 
 class Length(QuadraticObjective):
@@ -13,3 +13,7 @@ class Length(QuadraticObjective):
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
         self.bands = difference_bands(len(setting.start), (-1.0, 1.0)) / setting.spacing_m
+
+    def terms(self, x: Points) -> Points:
+        """Returns the terms (n,) of the sum."""
+        return difference_terms(x, 1) / self.setting.spacing_m
