@@ -22,6 +22,7 @@ setup(
         (f"share/{NAME}/launch", glob("launch/*.launch.py")),
         (f"share/{NAME}/config", glob("config/*.yaml")),
         (f"share/{NAME}/rviz", glob("rviz/*.rviz")),
+        (f"share/{NAME}/foxglove", glob("foxglove/*.json")),
         (f"share/{NAME}/buildings", glob("buildings/*.ifc")),
     ],
     python_requires=">=3.11",

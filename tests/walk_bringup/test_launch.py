@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import json
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -71,3 +73,17 @@ def test_rviz_edits_keypoints_under_the_name_of_the_editor() -> None:
     assert names == [absolute_name(name) for name in (UPDATE, FEEDBACK, SERVICE)]
     assert editor["Enabled"]
     assert "rviz_default_plugins/Interact" in [tool["Class"] for tool in layout["Visualization Manager"]["Tools"]]
+
+
+def test_foxglove_shows_topics_of_the_table_and_every_panel_it_lays_out() -> None:
+    from walk_ros.topics import TOPICS, absolute_name
+
+    layout = json.loads((SHARE / "foxglove" / "walk.json").read_text(encoding="utf-8"))
+    table = {absolute_name(name) for name in TOPICS}
+    assert set(layout["configById"]["3D!walk"]["topics"]) <= table
+    assert layout["configById"]["RawMessages!answers"]["topicPath"] in table
+
+    def panels(node: Any) -> set[str]:
+        return {node} if isinstance(node, str) else panels(node["first"]) | panels(node["second"])
+
+    assert panels(layout["layout"]) == set(layout["configById"])

@@ -18,7 +18,7 @@ from walk_bringup.bootstrap.stamps import fingerprint as _fingerprint
 from walk_bringup.bootstrap.stamps import read_json, write_json
 
 _PACKAGING = ("package.xml", "setup.py", "setup.cfg")
-_DATA = ("resource/*", "launch/*.py", "config/*.yaml", "rviz/*.rviz", "buildings/*.ifc")
+_DATA = ("resource/*", "launch/*.py", "config/*.yaml", "rviz/*.rviz", "foxglove/*.json", "buildings/*.ifc")
 
 
 def fingerprint(layout: Layout, machine: Machine) -> str:

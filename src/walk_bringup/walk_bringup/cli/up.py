@@ -34,6 +34,7 @@ TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, 
 @click.option("--params-file", type=click.Path(path_type=Path), help="YAML of parameters; ./walk params prints one.")
 @click.option("--lan", is_flag=True, help="Let headsets and other machines in: TLS, a token and a QR code.")
 @click.option("--port", type=click.IntRange(0, 65535), help="Port of the headset page; 0 takes a free one.")
+@click.option("--viewer-port", type=click.IntRange(0, 65535), help="Port that Foxglove may connect to (default: none).")
 @click.option("--namespace", default="walk", show_default=True, help="Namespace of the nodes and topics.")
 @click.option("--log-level", type=click.Choice(["debug", "info", "warn", "error"]), default="info", show_default=True)
 def up(
@@ -42,6 +43,7 @@ def up(
     params_file: Path | None,
     lan: bool,
     port: int | None,
+    viewer_port: int | None,
     namespace: str,
     log_level: str,
 ) -> int:
@@ -66,12 +68,15 @@ def up(
         own.write_text(overrides_yaml(params, list(NODES)), encoding="utf-8")
         # The last file wins; a plain `-p` would lose against the same parameter in --params-file.
         last = ["--params-file", str(own)] if params else []
-        supervisor = Supervisor(
-            [
-                Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last))
-                for name, package in NODES.items()
-            ]
-        )
+        children = [
+            Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last))
+            for name, package in NODES.items()
+        ]
+        if viewer_port is not None:
+            viewer = str(find_executable("walk_bag", "viewer"))
+            options = ("-r", f"__ns:=/{namespace.strip('/')}", "-p", f"viewer_port:={viewer_port}")
+            children.append(Child(name="viewer", command=(viewer, "--ros-args", *options)))
+        supervisor = Supervisor(children)
         supervisor.start()
         domain = os.environ.get("ROS_DOMAIN_ID", "0")
         supervisor.say(f"walk: {', '.join(NODES)} started on {building or 'the sample building'}, ROS domain {domain}.")
