@@ -12,6 +12,7 @@ from walk_building.bvh import closest_point
 
 # How much farther than the wish a free point looks, so that it need not look again until it has come this much nearer.
 _AHEAD_M = 0.25
+_BEYOND_M = 0.05  # the same for a single height, where there is much within it already
 _ROUNDING_M = 1e-9
 _SAME_M = 1e-3  # less than this inside the wish is not worth a piece
 _PARALLEL = 0.999  # cosine above which two witnesses lie in one direction
@@ -79,7 +80,7 @@ def _closest(bvh, x, y, z, reach, known):
         return 0.0, 0.0, 0.0, reach, False
     if moved == 0.0 and known[4] < reach:
         return known[5], known[6], known[7], known[4], True
-    look = min(known[4] + moved + _ROUNDING_M, reach + _AHEAD_M)
+    look = min(known[4] + moved + _ROUNDING_M, reach + _BEYOND_M)
     cx, cy, cz, square, face = closest_point(bvh, x, y, z, look)
     distance = np.sqrt(square)
     known[0], known[1], known[2], known[3] = x, y, z, distance
