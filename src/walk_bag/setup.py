@@ -24,9 +24,10 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "record = walk_bag.record:main",
+            "record = walk_bag.executables:record",
+            "viewer = walk_bag.executables:viewer",
             "recover = walk_bag.recover:main",
-            "replay = walk_bag.replay:main",
+            "replay = walk_bag.executables:replay",
         ],
     },
 )

@@ -17,12 +17,14 @@ import trimesh
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from walk_plan.glb import camera_quat_xyzw, to_gltf, write_glb
+from walk_bag.exports.axes import camera_quat_xyzw, to_gltf
+from walk_bag.exports.glb import write_glb
+from walk_bag.exports.resample import resample
+from walk_bag.exports.shapes import tube
+from walk_bag.exports.trajectory_csv import write_trajectory_csv
+from walk_plan.outputs import ride_of
 from walk_plan.report import write_report
-from walk_plan.resample import resample
-from walk_plan.shapes import tube
 from walk_plan.summary import as_plain, summary
-from walk_plan.trajectory_csv import write_trajectory_csv
 from walk_plan.walkthrough import Walkthrough
 
 
@@ -37,7 +39,7 @@ def test_csv_has_the_poses_of_the_trajectory_in_the_files_own_coordinates(
     far_away: Walkthrough, tmp_path: Path
 ) -> None:
     path = tmp_path / "trajectory.csv"
-    write_trajectory_csv(path, far_away.building, far_away.trajectory)
+    write_trajectory_csv(path, ride_of(far_away))
     assert path.read_text().splitlines()[0] == "t,x,y,z,qx,qy,qz,qw,stop"
     table = np.loadtxt(path, delimiter=",", skiprows=1)
     trajectory = far_away.trajectory
@@ -54,7 +56,12 @@ def test_csv_rows_are_at_most_a_tenth_of_a_second_apart_and_rise(walkthrough: Wa
         field.name: getattr(walkthrough.trajectory, field.name)[::40]
         for field in dataclasses.fields(walkthrough.trajectory)
     }
-    write_trajectory_csv(path, walkthrough.building, dataclasses.replace(walkthrough.trajectory, **sparse))
+    write_trajectory_csv(
+        path,
+        dataclasses.replace(
+            ride_of(walkthrough), **{k: v for k, v in sparse.items() if k in ("t_s", "positions", "quat_xyzw", "stop")}
+        ),
+    )
     table = np.loadtxt(path, delimiter=",", skiprows=1)
     steps = np.diff(table[:, 0])
     assert steps.min() > 0.0 and steps.max() <= 0.1
@@ -93,7 +100,7 @@ def test_another_programs_loader_finds_building_path_and_keypoints_in_the_glb(
     walkthrough: Walkthrough, tmp_path: Path
 ) -> None:
     path = tmp_path / "walkthrough.glb"
-    write_glb(path, walkthrough)
+    write_glb(path, ride_of(walkthrough))
     scene = trimesh.load(path)
     meshes = {name: scene.geometry[scene.graph[name][1]] for name in scene.graph.nodes_geometry}
     building = walkthrough.building.geometry
@@ -109,7 +116,7 @@ def test_another_programs_loader_finds_building_path_and_keypoints_in_the_glb(
 
 def test_the_camera_of_the_glb_walks_and_looks_as_the_trajectory(walkthrough: Walkthrough, tmp_path: Path) -> None:
     path = tmp_path / "walkthrough.glb"
-    write_glb(path, walkthrough)
+    write_glb(path, ride_of(walkthrough))
     document, binary = parts_of_glb(path)
     (animation,) = document["animations"]
     channels = {

@@ -21,3 +21,17 @@ class BagError(WalkError):
         self.path = Path(path)
         self.reason = reason
         super().__init__(f"{self.path}: {reason}")
+
+
+class ExportError(WalkError):
+    """An export that cannot be made, or a file of keypoints that cannot be read.
+
+    Attributes:
+        path: The file.
+        reason: What is wrong and what to do about it, without the path.
+    """
+
+    def __init__(self, path: Path | str, reason: str) -> None:
+        self.path = Path(path)
+        self.reason = reason
+        super().__init__(f"{self.path}: {reason}")

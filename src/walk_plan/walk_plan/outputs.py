@@ -9,12 +9,15 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from walk_bag.exports.glb import write_glb
+from walk_bag.exports.ride import Ride
+from walk_bag.exports.trajectory_csv import write_trajectory_csv
 from walk_bag.walkthrough import walkthrough_messages, write_walkthrough_bag
 from walk_building.progress import Progress, no_progress
-from walk_plan.glb import write_glb
+from walk_plan.compare.comparison import Comparison, write_figures
+from walk_plan.compare.page import write_page
 from walk_plan.report import write_report
 from walk_plan.summary import summary
-from walk_plan.trajectory_csv import write_trajectory_csv
 from walk_plan.walkthrough import Walkthrough
 
 MARKER = "report.json"
@@ -42,14 +45,41 @@ def write_tour_bag(path: Path, walkthrough: Walkthrough) -> None:
     write_walkthrough_bag(path, messages)
 
 
+def ride_of(walkthrough: Walkthrough) -> Ride:
+    """Returns the walk as the exports take it."""
+    building, trajectory = walkthrough.building, walkthrough.trajectory
+    return Ride(
+        t_s=trajectory.t_s,
+        positions=trajectory.positions,
+        quat_xyzw=trajectory.quat_xyzw,
+        stop=trajectory.stop,
+        keypoints=walkthrough.keypoints,
+        offset_m=building.model.offset_m,
+        model=building.model,
+        building_name=building.model.source.name,
+        building_hash=building.hash,
+    )
+
+
 WRITERS: dict[str, Callable[[Path, Walkthrough], None]] = {
     "tour.mcap": write_tour_bag,
-    "trajectory.csv": lambda path, walkthrough: write_trajectory_csv(
-        path, walkthrough.building, walkthrough.trajectory
-    ),
-    "walkthrough.glb": write_glb,
+    "trajectory.csv": lambda path, walkthrough: write_trajectory_csv(path, ride_of(walkthrough)),
+    "walkthrough.glb": lambda path, walkthrough: write_glb(path, ride_of(walkthrough)),
 }
 """Writers of everything but the report, which is written last because it tells what the others cost."""
+
+
+COMPARISON_WRITERS: dict[str, Callable[[Path, Comparison], None]] = {
+    "compare.html": write_page,
+    "compare.json": write_figures,
+}
+"""Writers of what a plan writes only where it is asked to compare."""
+
+
+def write_comparison(comparison: Comparison, folder: Path) -> None:
+    """Writes all files of a comparison into an existing folder."""
+    for name, write in COMPARISON_WRITERS.items():
+        write(folder / name, comparison)
 
 
 def write_outputs(walkthrough: Walkthrough, folder: Path, progress: Progress = no_progress) -> None:

@@ -9,11 +9,11 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_bag.exports.resample import resample
 from walk_building.building import Building
 from walk_plan.along import walked_m
 from walk_plan.clearance import SideClearance
 from walk_plan.quality import turn_rates
-from walk_plan.resample import resample
 from walk_trajopt.trajectory import Trajectory
 
 STEP_S = 0.1

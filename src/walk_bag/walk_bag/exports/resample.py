@@ -5,12 +5,31 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation, Slerp
 
-from walk_trajopt.trajectory import Trajectory
+
+class Timed(Protocol):
+    """What can be resampled: a trajectory, or a ride."""
+
+    @property
+    def t_s(self) -> NDArray[np.float64]:
+        """(m,) strictly rising [s]."""
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """(m, 3) [m]."""
+
+    @property
+    def quat_xyzw(self) -> NDArray[np.float64]:
+        """(m, 4)."""
+
+    @property
+    def stop(self) -> NDArray[np.bool_]:
+        """(m,) whether the walker stands still."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -23,13 +42,17 @@ class PoseSamples:
     stop: NDArray[np.bool_]  # (m,) the walker stands
 
 
-def resample(trajectory: Trajectory, max_step_s: float) -> PoseSamples:
+def resample(trajectory: Timed, max_step_s: float) -> PoseSamples:
     """Returns the trajectory's own samples with as many between as keep the steps within `max_step_s`.
 
     Positions between two samples lie on the straight line between them, because that line is what was swept
     against the building; look directions turn about one axis at constant rate.
     """
-    times = _refined(trajectory.t_s, max_step_s)
+    return sample_at(trajectory, _refined(trajectory.t_s, max_step_s))
+
+
+def sample_at(trajectory: Timed, times: NDArray[np.float64]) -> PoseSamples:
+    """Returns the trajectory at the given times (m,) [s], which lie within it."""
     positions = np.column_stack([np.interp(times, trajectory.t_s, trajectory.positions[:, i]) for i in range(3)])
     before = np.clip(np.searchsorted(trajectory.t_s, times, side="right") - 1, 0, len(trajectory.t_s) - 1)
     after = np.minimum(before + 1, len(trajectory.t_s) - 1)
@@ -47,7 +70,7 @@ def _refined(t_s: NDArray[np.float64], max_step_s: float) -> NDArray[np.float64]
     return np.append(start + step * index, t_s[-1])
 
 
-def _turned(trajectory: Trajectory, times: NDArray[np.float64]) -> NDArray[np.float64]:
+def _turned(trajectory: Timed, times: NDArray[np.float64]) -> NDArray[np.float64]:
     if len(trajectory.t_s) < 2:
         return np.repeat(trajectory.quat_xyzw[:1], len(times), axis=0)
     quat = Slerp(trajectory.t_s, Rotation.from_quat(trajectory.quat_xyzw))(times).as_quat()

@@ -78,7 +78,7 @@ class GltfFile:
     def to_bytes(self) -> bytes:
         """Returns the file."""
         document: dict[str, Any] = {
-            "asset": {"version": "2.0", "generator": "walk_plan"},
+            "asset": {"version": "2.0", "generator": "walk_bag"},
             "scene": 0,
             "scenes": [{"nodes": list(range(len(self._lists.get("nodes", [])))), "extras": self.extras}],
             "buffers": [{"byteLength": len(self._binary)}],
