@@ -45,6 +45,9 @@ def parameters_yaml() -> str:
     return "\n".join(lines) + "\n"
 
 
+_LONG = 24
+"""Characters of a default from which on it would push the other columns off the page."""
+
 _PAGE = """\
 # Parameters
 
@@ -63,14 +66,11 @@ def parameters_markdown() -> str:
     for node, configs in nodes.items():
         for group, config in configs.items():
             lines += ["", f"## {group}", "", f"*{node[0].upper()}{node[1:]}*", ""]
-            lines += ["| parameter | default | may be | what it does |", "|---|---|---|---|"]
+            lines += ["| parameter | what it does | default | may be |", "|---|---|---|---|"]
             for field in dataclasses.fields(config):  # type: ignore[arg-type]
-                cells = (
-                    f"`{group}.{field.name}`",
-                    f"`{yaml_value(field.default)}`",
-                    limits(field),
-                    field.metadata["doc"],
-                )
+                default = yaml_value(field.default)
+                default = f"`{default}`" if len(default) <= _LONG else "see `config/walk.yaml`"
+                cells = (f"`{group}.{field.name}`", field.metadata["doc"], default, limits(field))
                 lines.append("| " + " | ".join(_cell(text) for text in cells) + " |")
     return "\n".join(lines) + "\n"
 
