@@ -24,7 +24,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "importance = walk_importance.node:main",
+            "importance = walk_importance.__main__:main",
         ],
     },
 )

@@ -24,7 +24,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "sequencer = walk_sequencer.node:main",
+            "sequencer = walk_sequencer.__main__:main",
         ],
     },
 )

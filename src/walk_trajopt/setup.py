@@ -24,7 +24,7 @@ setup(
     zip_safe=False,
     entry_points={
         "console_scripts": [
-            "trajopt = walk_trajopt.node:main",
+            "trajopt = walk_trajopt.__main__:main",
         ],
     },
 )

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""The importance map as a node: published as it gets better, and the keypoints it suggests."""
+"""The importance map as a node: published as it gets better, and the keypoints it suggests.
+
+What computes is imported where it is used: a later start publishes what is kept before those imports are done.
+"""
 
 from __future__ import annotations
 
@@ -8,27 +11,27 @@ import dataclasses
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_building.building import Building
 from walk_building.errors import WalkError
-from walk_building.footing import eye_over_floor
 from walk_building.model import LoadOptions
 from walk_building.walker import Walker
 from walk_importance.cache import default_cache_dir, same_maps
-from walk_importance.candidates import Candidates, find_candidates, rescored
 from walk_importance.config import ImportanceConfig, KeypointConfig
 from walk_importance.errors import MapNotReadyError
 from walk_importance.importance_map import ImportanceMap, reweigh
-from walk_importance.keypoints import snap_keypoint, suggest_keypoints
-from walk_importance.pipeline import refine_importance
 from walk_importance.store import MapStore, Start
 from walk_ros.near_desk import NearDesk, Place
 from walk_ros.node import STOP_S, WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS, map_bytes, map_messages, suggestion_messages
 from walk_ros.runner import run_node
+
+if TYPE_CHECKING:
+    from walk_building.building import Building
+    from walk_importance.candidates import Candidates
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,6 +94,8 @@ class ImportanceNode(WalkNode):
             self._update_map(building, config)
         if self._map is None:
             return
+        from walk_importance.candidates import find_candidates
+
         if self._candidates is None:
             self._candidates = find_candidates(building, self._map)
         self._ready = _Ready(building=building, importance_map=self._map, candidates=self._candidates)
@@ -125,6 +130,9 @@ class ImportanceNode(WalkNode):
         ready = self._ready
         if ready is None:
             raise MapNotReadyError
+        from walk_building.footing import eye_over_floor
+        from walk_importance.keypoints import snap_keypoint
+
         eye = eye_over_floor(ready.building, point)
         config = self.parameters.get("keypoints", KeypointConfig)
         found = snap_keypoint(ready.building, ready.importance_map, eye, config, ready.candidates, taken)
@@ -147,6 +155,8 @@ class ImportanceNode(WalkNode):
         if self._map is not None and self._map_for is not None and same_maps(config, self._map_for):
             self._map, self._map_for = reweigh(self._map, config), config
             if self._candidates is not None:
+                from walk_importance.candidates import rescored
+
                 self._candidates = rescored(self._candidates, self._map)
             self._publish_map(floors_z, building.walker.eye_height_m)
         else:
@@ -163,6 +173,8 @@ class ImportanceNode(WalkNode):
             self._map = kept
             self._publish_map(floors_z, building.walker.eye_height_m)
             return
+        from walk_importance.pipeline import refine_importance
+
         self.diagnostics.state("computing", "computing the importance map")
         latest: ImportanceMap | None = None
         try:
@@ -200,6 +212,8 @@ class ImportanceNode(WalkNode):
             self.offer("importance_map/storeys", depth=count)
 
     def _suggest(self, building: Building, importance_map: ImportanceMap, config: KeypointConfig) -> None:
+        from walk_importance.keypoints import suggest_keypoints
+
         began = self.now_s()
         suggestion = suggest_keypoints(building, importance_map, config, self._candidates)
         stamp_ns = self.revision()

@@ -12,19 +12,21 @@ import os
 import zlib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_building.building import Building
-from walk_building.loaders.fingerprint import content_hash
+from walk_building.fingerprint import content_hash
 from walk_building.model import LoadOptions
 from walk_building.walker import Walker
 from walk_importance.cache import cache_file, load_map, save_map, trim, write_whole
 from walk_importance.config import ImportanceConfig, KeypointConfig
 from walk_importance.importance_map import ImportanceMap
-from walk_importance.keypoints import Suggestion
+
+if TYPE_CHECKING:
+    from walk_building.building import Building
+    from walk_importance.keypoints import Suggestion
 
 _log = logging.getLogger(__name__)
 _FORMAT = 1  # raise when the record or what it is made from changes
