@@ -145,3 +145,90 @@ def test_ray_moves_a_keypoint_at_full_scale(headset):
     assert moved["pick"] == {"id": moved["id"], "where": "full"}
     assert moved["refusals"] == []
     assert 0.1 < distance(moved["start"], moved["end"]) < 0.6
+
+
+def test_keypoint_is_added_by_dragging_it_from_the_panel_into_the_miniature(headset):
+    page = headset
+    added = page.js("""
+      const { store } = walk.client;
+      const { panel, travel } = walk.room;
+      walk.stage.miniature.clip.cutStorey(0);
+      walk.desktop.panel.open("tour");
+      travel.goTo(6, 2, 0, false);
+      await hands.frames(2);
+      walk.room.bringToHand();
+      await hands.frames(3);
+      const before = store.state.keypoints.map((one) => one.id);
+      const spot = panel.find("add");
+      const { widthM, heightM, group } = panel;
+      const onPanel = group.localToWorld(walk.view.eye.clone().set((spot.x - 0.5) * widthM, (0.5 - spot.y) * heightM, 0)).toArray();
+      const eye = walk.view.eye.toArray();
+      const from = onPanel.map((value, axis) => value + (eye[axis] - value) * 0.4);
+      hands.aim("right", from, onPanel);
+      await hands.frames(3);
+      await hands.button("right", "trigger", 1);
+      const doing = walk.room.handlers[1].doing;
+      const { place } = walk.stage.inMiniature;
+      const goal = walk.view.eye.clone().set(10, 1.2, 1.0);
+      await hands.reach("right", place.toRoom(goal, goal).toArray());
+      await hands.button("right", "trigger", 0);
+      await hands.until(() => store.state.keypoints.length > before.length, "a new keypoint");
+      const fresh = store.state.keypoints.find((one) => !before.includes(one.id));
+      walk.stage.miniature.clip.open();
+      return { doing, at: fresh.position, refusals: store.state.refusals.map((one) => one.reason) };
+    """)
+    assert added["doing"] == "add"
+    assert added["refusals"] == []
+    assert added["at"] == pytest.approx([10, 1.2, 1.6], abs=0.15)
+
+
+def test_keypoint_is_added_by_dragging_it_from_the_panel_into_the_room(headset):
+    page = headset
+    added = page.js("""
+      const { store } = walk.client;
+      const { panel, travel } = walk.room;
+      travel.goTo(2, 1.5, 0, false);
+      await hands.frames(2);
+      walk.room.bringToHand();
+      walk.stage.miniature.placeAt(walk.view.eye.clone().add({ x: 0, y: 0, z: 1.2 }), 0);
+      await hands.frames(3);
+      const before = store.state.keypoints.map((one) => one.id);
+      const spot = panel.find("add");
+      const { widthM, heightM, group } = panel;
+      const onPanel = group.localToWorld(walk.view.eye.clone().set((spot.x - 0.5) * widthM, (0.5 - spot.y) * heightM, 0)).toArray();
+      const eye = walk.view.eye.toArray();
+      const from = onPanel.map((value, axis) => value + (eye[axis] - value) * 0.4);
+      hands.aim("right", from, onPanel);
+      await hands.frames(3);
+      await hands.button("right", "trigger", 1);
+      hands.aim("right", [eye[0] + 0.2, 1.3, eye[2] - 0.2], [3, 0, -2.8]);
+      await hands.frames(4);
+      await hands.button("right", "trigger", 0);
+      await hands.until(() => store.state.keypoints.length > before.length, "a new keypoint");
+      const fresh = store.state.keypoints.find((one) => !before.includes(one.id));
+      walk.room.bringToHand();
+      return { at: fresh.position, refusals: store.state.refusals.map((one) => one.reason) };
+    """)
+    assert added["refusals"] == []
+    assert added["at"] == pytest.approx([3, 2.8, 1.6], abs=0.15)
+
+
+def test_panel_is_pressed_by_a_ray(headset):
+    tab = headset.js("""
+      const { panel } = walk.room;
+      const spot = panel.find("tab:view");
+      const { widthM, heightM, group } = panel;
+      const onPanel = group.localToWorld(walk.view.eye.clone().set((spot.x - 0.5) * widthM, (0.5 - spot.y) * heightM, 0)).toArray();
+      const eye = walk.view.eye.toArray();
+      hands.aim("left", onPanel.map((value, axis) => value + (eye[axis] - value) * 0.4), onPanel);
+      await hands.frames(3);
+      await hands.click("left", "trigger");
+      const { tab } = walk.desktop.panel;
+      walk.desktop.panel.open("tour");
+      return tab;
+    """)
+    assert tab == "view"
+
+
+def test_nothing_went_wrong_in_the_page(headset):
+    assert headset.said() == []

@@ -23,7 +23,7 @@ export class Miniature {
 
   constructor(private readonly world: Group) {
     this.copy = new BuildingCopy(this.planes);
-    this.base = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ color: "#b9c3c9" }));
+    this.base = new Mesh(new BoxGeometry(1, 1, 1), new MeshBasicMaterial({ color: "#66737e" }));
     this.group.name = "miniature";
     this.group.add(this.copy.group, this.base);
     world.add(this.group);

@@ -46,7 +46,7 @@ export class Held {
     const [x, y, z] = keypoint.position;
     this.at.set(x, y, z);
     this.level = z - place.belowEyeM;
-    this.offset.copy(this.at).sub(place.toMap(hand.tip, POINT));
+    this.offset.copy(this.at).sub(place.toMap(hand.anchor, POINT));
     const [qx, qy, qz, qw] = keypoint.quat;
     this.heading = headingOf(qx, qy, qz, qw);
     this.turned = place.heading(hand.turn);
@@ -59,7 +59,7 @@ export class Held {
     if (this.id === null || !this.overlay) return;
     const { place } = this.overlay;
     BEFORE.copy(this.at);
-    if (this.near) this.at.copy(place.toMap(hand.tip, POINT)).add(this.offset);
+    if (this.near) this.at.copy(place.toMap(hand.anchor, POINT)).add(this.offset);
     else this.followRay(hand);
     if (!Number.isFinite(this.at.x + this.at.y + this.at.z)) this.at.copy(BEFORE);
     // A trembling hand is no move: half a centimetre of the building.

@@ -19,6 +19,8 @@ export class HandInput {
   readonly ray = makeRay();
   /** Where near things are grabbed. */
   readonly tip = new Vector3();
+  /** What held things follow: the tip of a controller, the knuckle of a bare hand, which stays where it is while it pinches. */
+  readonly anchor = new Vector3();
   /** Place and turn of the fist, in the room. */
   readonly grip = new Matrix4();
   readonly turn = new Quaternion();
@@ -79,6 +81,7 @@ export class HandInput {
     this.ray.direction.set(0, 0, -1).applyQuaternion(this.turn);
     this.grip.copy(gripSpace.visible ? gripSpace.matrixWorld : target.matrixWorld);
     this.tip.copy(this.ray.origin).addScaledVector(this.ray.direction, TIP_M);
+    this.anchor.copy(this.tip);
     if (this.bare) this.readPinch();
     this.readButtons(source.gamepad);
   }
@@ -96,17 +99,18 @@ export class HandInput {
     const apart = THUMB.distanceTo(this.tip);
     this.pinching = apart < (this.pinching ? UNPINCH_M : PINCH_M);
     this.tip.add(THUMB).multiplyScalar(0.5);
+    const knuckle = this.joints?.joints["index-finger-phalanx-proximal"];
+    if (knuckle?.visible) this.anchor.setFromMatrixPosition(knuckle.matrixWorld);
   }
 
   private readButtons(pad: Gamepad | undefined): void {
-    const value = (index: number): number => pad?.buttons[index]?.value ?? 0;
     const held = this.selecting || (this.bare && this.pinching) ? 1 : 0;
-    this.trigger.update(Math.max(held, value(0)));
+    this.trigger.update(Math.max(held, valueOf(pad, 0)));
     if (this.bare) return;
-    this.squeeze.update(value(1));
-    this.stick.update(value(3));
-    this.first.update(value(4));
-    this.second.update(value(5));
+    this.squeeze.update(valueOf(pad, 1));
+    this.stick.update(valueOf(pad, 3));
+    this.first.update(valueOf(pad, 4));
+    this.second.update(valueOf(pad, 5));
     this.stickX = pad?.axes[2] ?? 0;
     this.stickY = pad?.axes[3] ?? 0;
     this.forward.update(-this.stickY);
@@ -120,6 +124,10 @@ export class HandInput {
     for (const button of [this.trigger, this.squeeze, this.first, this.second, this.stick]) button.update(0);
     for (const flick of [this.forward, this.left, this.right]) flick.update(0);
   }
+}
+
+function valueOf(pad: Gamepad | undefined, index: number): number {
+  return pad?.buttons[index]?.value ?? 0;
 }
 
 interface Pulsing {

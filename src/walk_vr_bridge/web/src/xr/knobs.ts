@@ -49,7 +49,7 @@ export class Knobs {
 
   take(hand: HandInput, name: KnobName): void {
     const { place } = this.stage.inMiniature;
-    this.lift = this.mesh(name).position.z - place.toMap(hand.tip, AT).z;
+    this.lift = this.mesh(name).position.z - place.toMap(hand.anchor, AT).z;
     this.normal.copy(this.stage.miniature.clip.plane.normal).negate();
     this.turn.copy(hand.turn).invert();
   }
@@ -60,14 +60,14 @@ export class Knobs {
     const { place } = this.stage.inMiniature;
     const before = clip.storey;
     if (name === "level") {
-      clip.cutAt(place.toMap(hand.tip, AT).z + this.lift, true);
+      clip.cutAt(place.toMap(hand.anchor, AT).z + this.lift, true);
       return clip.storey !== before && clip.storey >= 0;
     }
     // The hand's turn since it took hold, brought from the room into the map.
     this.stage.miniature.group.getWorldQuaternion(ROOM);
     TURN.copy(ROOM).invert().multiply(hand.turn).multiply(this.turn).multiply(ROOM);
     NORMAL.copy(this.normal).applyQuaternion(TURN).normalize();
-    clip.cutAlong(NORMAL, place.toMap(hand.tip, AT));
+    clip.cutAlong(NORMAL, place.toMap(hand.anchor, AT));
     return false;
   }
 

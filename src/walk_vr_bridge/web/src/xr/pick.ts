@@ -38,7 +38,11 @@ export function pickKeypoint(stage: Stage, hand: HandInput, out: Pick): Pick {
     if (!overlay.place.group.visible) continue;
     const id = overlay.place.near(hand.tip, NEAR_M, keypoints, skip(stage, overlay));
     if (id === null) continue;
-    return Object.assign(out, { id, overlay, near: true, distance: 0 });
+    out.id = id;
+    out.overlay = overlay;
+    out.near = true;
+    out.distance = 0;
+    return out;
   }
   for (let i = 0; i < stage.overlays.length; i++) pickByRay(stage, hand, stage.overlays[i], keypoints, out);
   return out;

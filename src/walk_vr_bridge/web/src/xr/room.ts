@@ -160,7 +160,7 @@ export class XrRoom implements HandlerWorld {
     if (carriers !== this.carriers) this.takeMiniature(carriers);
     this.carriers = carriers;
     if (carriers === 0) return;
-    if (carriers === 3) this.carry.both(left.hand.tip, right.hand.tip, this.clampFactor, POSE);
+    if (carriers === 3) this.carry.both(left.hand.anchor, right.hand.anchor, this.clampFactor, POSE);
     else this.carry.one((carriers === 1 ? left : right).hand.grip, POSE);
     this.stage.miniature.setWorldMatrix(POSE);
     group.updateMatrixWorld(true);
@@ -170,7 +170,7 @@ export class XrRoom implements HandlerWorld {
     const [left, right] = this.handlers;
     const { group } = this.stage.miniature;
     this.startScale = this.stage.miniature.scale;
-    if (carriers === 3) this.carry.beginTwo(group.matrixWorld, left.hand.tip, right.hand.tip);
+    if (carriers === 3) this.carry.beginTwo(group.matrixWorld, left.hand.anchor, right.hand.anchor);
     else if (carriers) this.carry.beginOne(group.matrixWorld, (carriers === 1 ? left : right).hand.grip);
   }
 

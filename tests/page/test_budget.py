@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a headset can bear: draw calls and triangles of every building, memory over many frames, size of the scripts."""
+
+import gzip
+
+import pytest
+from page.browser import STATIC, BridgedGraph
+
+pytestmark = pytest.mark.ros
+
+MOST_CALLS, MOST_TRIANGLES, MOST_SCRIPT = 120, 600_000, 250_000
+BUILDINGS = ("duplex.ifc", "large_building.ifc", "willowgarage.dae", "parking_garage.dae", "small_house.ply")
+KEYPOINTS = 100
+
+
+@pytest.mark.parametrize("name", BUILDINGS)
+def test_calls_and_triangles_of_both_eyes(browser, buildings_dir, tmp_path, next_domain, name):
+    graph = BridgedGraph(next_domain(), tmp_path, buildings_dir / name)
+    try:
+        graph.start_bridge()
+        page = browser.open(graph.url)
+        page.js("await hands.until(() => window.walk?.stage.models, 'the building', 120000)")
+        # Only the bridge runs: as many keypoints and as long a path as there ever are, right around the user; all maps.
+        worst = page.js(f"""
+          const {{ store, actions }} = walk.client;
+          const [x, y, z] = store.state.building.start;
+          store.set("keypoints", Array.from({{ length: {KEYPOINTS} }}, (_, i) => ({{
+            id: i, position: [x + Math.cos(i) * 2, y + Math.sin(i) * 2, z + 1.6], quat: [0, 0, 0, 1], label: "", locked: false,
+            start: false, end: false, dwellS: null, lookAt: null, unreachable: "", pending: false }})));
+          const path = store.state.path;
+          const rows = 3000;
+          path.count = rows;
+          path.positions = Float32Array.from({{ length: 3 * rows }}, (_, i) => [x + Math.floor(i / 3) / 1000, y, z + 1.6][i % 3]);
+          for (const field of ["quats", "timeS", "speedMps", "heightM", "clearanceM"]) path[field] = new Float32Array(4 * rows);
+          store.touch("path");
+          await walk.xr.enter();
+          await hands.until(() => walk.view.presenting && walk.view.frames > 3, "the session");
+          hands.head([0, 1.6, 0]);
+          await hands.frames(2);
+          walk.room.bringToHand();
+          let [calls, triangles] = [0, 0];
+          for (const surface of ["building", "transparent"]) for (let quarter = 0; quarter < 4; quarter++) {{
+            actions.set({{ surface }});
+            hands.head([0, 1.6, 0], quarter * Math.PI / 2);
+            await hands.frames(2);
+            const {{ render }} = walk.view.renderer.info;
+            calls = Math.max(calls, render.calls);
+            triangles = Math.max(triangles, render.triangles);
+          }}
+          return {{ calls, triangles, views: walk.view.renderer.xr.getCamera().cameras.length }};
+        """)
+        page.close()
+    finally:
+        graph.close()
+    assert worst["views"] == 2
+    assert 20 < worst["calls"] <= MOST_CALLS
+    assert 10_000 < worst["triangles"] <= MOST_TRIANGLES
+
+
+def test_memory_is_flat_while_nothing_happens(headset):
+    # Two thirds of a thousand frames here; ten thousand with the same figure in docs/headset.md.
+    grown = headset.js("""
+      hands.head([0, 1.6, 0]);
+      await hands.frames(60);
+      const used = async () => { for (let i = 0; i < 4; i++) { gc(); await hands.frames(2); } return performance.memory.usedJSHeapSize; };
+      const first = await used();
+      await hands.frames(600);
+      return (await used()) - first;
+    """)
+    assert grown < 100_000
+
+
+def test_scripts_are_small(browser):
+    scripts = list(STATIC.rglob("*.js"))
+    assert scripts
+    assert sum(len(gzip.compress(script.read_bytes(), 6)) for script in scripts) <= MOST_SCRIPT
+
+
+def test_page_fetches_nothing_from_elsewhere(headset, graph):
+    addresses = headset.js("return performance.getEntriesByType('resource').map((one) => one.name)")
+    assert addresses
+    assert [
+        address for address in addresses if not address.startswith((graph.url, graph.url.replace("http", "ws")))
+    ] == []

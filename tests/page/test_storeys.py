@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is shown of a building with several storeys: cuts, caps, and keypoints dimmed through floors."""
+
+import pytest
+from page.browser import ROOT, BridgedGraph
+
+pytestmark = pytest.mark.ros
+
+SAMPLE = ROOT / "src" / "walk_bringup" / "buildings" / "sample.ifc"
+
+
+@pytest.fixture(scope="module")
+def page(browser, tmp_path_factory):
+    """The sample building with a keypoint in each room; only the bridge runs."""
+    graph = BridgedGraph(231, tmp_path_factory.mktemp("storeys"), SAMPLE)
+    try:
+        graph.start_bridge()
+        page = browser.open(graph.url)
+        page.js("""
+          await hands.until(() => window.walk?.stage.models, "the building", 120000);
+          const { store } = walk.client;
+          store.set("keypoints", store.state.building.rooms.map((room, i) => ({
+            id: i, position: [room.centre[0], room.centre[1], room.centre[2] + 1.6], quat: [0, 0, 0, 1], label: room.name,
+            locked: false, start: false, end: false, dwellS: null, lookAt: null, unreachable: "", pending: false })));
+          await walk.xr.enter();
+          await hands.until(() => walk.view.presenting && walk.view.frames > 5, "the session");
+          hands.head([0, 1.6, 0]);
+          await hands.frames(3);
+          walk.room.bringToHand();
+          await hands.frames(2);
+        """)
+        yield page
+        page.close()
+    finally:
+        graph.close()
+
+
+def counts(page, setup):
+    return page.js(f"""
+      {setup}
+      await hands.frames(3);
+      const {{ rooms }} = walk.client.store.state.building;
+      return {{ mini: walk.stage.inMiniature.pins.counts, full: walk.stage.inFull.pins.counts,
+        rooms: [0, 1].map((storey) => rooms.filter((room) => room.storey === storey).length) }};
+    """)
+
+
+def test_keypoints_of_lower_storeys_are_dimmed_through_the_floor(page):
+    above = counts(page, "walk.client.actions.showStorey(1)")
+    lower, upper = above["rooms"]
+    assert lower > 0 and upper > 0
+    assert above["mini"] == {"plain": upper, "dimmed": lower}
+    # Those over the cut are taken away with their storey.
+    assert counts(page, "walk.client.actions.showStorey(0)")["mini"] == {"plain": lower, "dimmed": 0}
+
+
+def test_whoever_stands_upstairs_sees_the_lower_storey_dimmed(page):
+    below = counts(
+        page, "const s = walk.client.store.state.building.start; walk.room.travel.goTo(s[0], s[1], 0, false)"
+    )
+    above = counts(
+        page,
+        "const { rooms, storeys } = walk.client.store.state.building;"
+        "const at = rooms.find((room) => room.storey === 1).centre;"
+        "walk.room.travel.goTo(at[0], at[1], storeys[1].floorZ, false)",
+    )
+    lower, upper = above["rooms"]
+    assert below["full"] == {"plain": lower + upper, "dimmed": 0}
+    assert above["full"] == {"plain": upper, "dimmed": lower}
+
+
+def test_the_cut_changes_the_miniature_and_never_the_building_around(page):
+    planes = page.js("""
+      walk.client.actions.showStorey(0);
+      await hands.frames(3);
+      const of = (copy) => copy.group.children.map((child) => child.material.clippingPlanes?.length ?? 0);
+      return { mini: of(walk.stage.miniature.copy), full: of(walk.stage.full), renderer: walk.view.renderer.clippingPlanes.length };
+    """)
+    assert set(planes["mini"]) == {1}
+    assert set(planes["full"]) == {0}
+    assert planes["renderer"] == 0
+
+
+def test_walls_are_filled_where_they_are_cut(page):
+    # From straight above, a cut building shows caps: pixels of their colour, of which there are none without the cut.
+    shares = page.js("""
+      const { view, stage } = walk;
+      const gl = view.renderer.getContext();
+      const share = async (storey) => {
+        walk.client.actions.showStorey(storey);
+        await hands.frames(3);
+        const { PerspectiveCamera, WebGLRenderTarget } = { PerspectiveCamera: view.camera.constructor };
+        const camera = new PerspectiveCamera(40, 1, 0.01, 10);
+        const at = stage.inMiniature.place.toRoom(stage.bounds.getCenter(view.eye.clone()), view.eye.clone());
+        camera.position.copy(at).y += 0.9;
+        camera.up.set(0, 0, -1);
+        camera.lookAt(at);
+        const { xr } = view.renderer;
+        xr.enabled = false;
+        const target = view.renderer.getRenderTarget();
+        view.renderer.setRenderTarget(null);
+        view.renderer.render(view.scene, camera);
+        const [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+        const pixels = new Uint8Array(4 * w * h);
+        gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        view.renderer.setRenderTarget(target);
+        xr.enabled = true;
+        let caps = 0;
+        for (let i = 0; i < pixels.length; i += 4) {
+          if (Math.abs(pixels[i] - 57) < 4 && Math.abs(pixels[i + 1] - 66) < 4 && Math.abs(pixels[i + 2] - 77) < 4) caps += 1;
+        }
+        return caps / (w * h);
+      };
+      return [await share(-1), await share(0)];
+    """)
+    assert shares[1] > 0.004
+    assert shares[1] > 10 * shares[0]
