@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import Any
 
@@ -28,6 +29,7 @@ class Client:
         outbox: What waits to be sent.
         intake: The rate at which it sends.
         too_many_errors: Whether it has said too much that is wrong.
+        sending_since_s: When the frame on its way now was given to the transport; inf between frames.
         calls: How many of its service calls wait for their answers.
     """
 
@@ -41,6 +43,7 @@ class Client:
         self.listening: dict[str, Listening] = {}
         self.fragments: dict[str, dict[int, str]] = {}
         self.too_many_errors = False
+        self.sending_since_s = math.inf
         self._sent = 0
 
     def subscribe(self, topic: str, short: str, identity: str, wish: Wish) -> Listening:

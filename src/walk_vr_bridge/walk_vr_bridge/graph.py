@@ -8,6 +8,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
+import rclpy
 from rclpy.qos import QoSProfile
 
 from walk_ros.node import WalkNode
@@ -19,9 +20,17 @@ from walk_vr_bridge.wire.message import Message
 
 OnMessage = Callable[[Message], None]
 
+QUICK = ("path", "edit_results", "path_results")
+"""What an edit waits for. An executor looks through all of its node's topics, services and timers at every message, in
+Python: these are heard by a node of their own, which has little to look through."""
+
 
 class Graph:
-    """Publishes and calls for clients. Publishing is safe from any thread; answers come in the loop's."""
+    """Publishes and calls for clients. Publishing is safe from any thread; answers come in the loop's.
+
+    Attributes:
+        quick: The node, hidden from listings, that hears the topics of QUICK; it wants an executor of its own.
+    """
 
     def __init__(self, node: WalkNode, allowed: Allowed, loop: asyncio.AbstractEventLoop) -> None:
         self._node = node
@@ -29,9 +38,14 @@ class Graph:
         self._allowed = allowed
         self._callers: dict[str, Any] = {}
         node.offer(*PUBLISHED)
+        # Without the global arguments: they would give it this node's name.
+        self.quick = rclpy.create_node(
+            f"_{node.get_name()}_quick", namespace=node.get_namespace(), use_global_arguments=False,
+            enable_rosout=False, start_parameter_services=False,
+        )  # fmt: skip
 
     def listen(self, short: str, on_message: OnMessage) -> None:
-        """Subscribes to a topic of the table; the callback runs in the executor's thread and gets no copy."""
+        """Subscribes to a topic of the table; the callback runs in the thread of an executor."""
         topic, full = TOPICS[short], self._allowed.full(short)
         type_name = self._allowed.heard[full]
 
@@ -39,7 +53,9 @@ class Graph:
             on_message(Message(full, type_name, bytes(data)))
 
         qos: QoSProfile = topic.qos
-        self._node.create_subscription(topic.type, short, callback, qos, raw=True)
+        name = self._node.resolve_topic_name(short)
+        node = self.quick if short in QUICK else self._node
+        node.create_subscription(topic.type, name, callback, qos, raw=True)
 
     def publish(self, topic: str, msg: Any) -> None:
         """Publishes a message of a client."""

@@ -40,13 +40,16 @@ class Running:
         for number in (signal.SIGINT, signal.SIGTERM):
             self._loop.add_signal_handler(number, self._stop.set)
         self._node = _make_node(self._loop, self._changed.set)
-        self._executor = SingleThreadedExecutor()
-        self._executor.add_node(self._node)
-        self._spinning = threading.Thread(target=self._spin, name="ROS", daemon=True)
+        self._executors = [SingleThreadedExecutor(), SingleThreadedExecutor()]
+        self._spinning = []
+        for executor, node in zip(self._executors, (self._node, self._node.quick), strict=True):
+            executor.add_node(node)
+            self._spinning.append(threading.Thread(target=_spin, args=(executor,), name="ROS", daemon=True))
 
     async def run(self) -> None:
         """Serves until a signal comes; starts again where the config changes."""
-        self._spinning.start()
+        for thread in self._spinning:
+            thread.start()
         sweeper = asyncio.create_task(self._sweep())
         try:
             while not self._stop.is_set():
@@ -99,13 +102,10 @@ class Running:
             dropped = sum(client.outbox.dropped for client in site.hub.clients)
             self._node.diagnostics.note(clients=len(site.hub.clients), dropped_frames=dropped)
 
-    def _spin(self) -> None:
-        with contextlib.suppress(ExternalShutdownException):
-            self._executor.spin()
-
     def _end(self) -> None:
-        self._executor.shutdown(timeout_sec=2.0)
-        self._spinning.join(2.0)
+        for executor, thread in zip(self._executors, self._spinning, strict=True):
+            executor.shutdown(timeout_sec=2.0)
+            thread.join(2.0)
         self._node.destroy_node()
         rclpy.try_shutdown()
 
@@ -145,6 +145,11 @@ def _make_node(loop: asyncio.AbstractEventLoop, on_config: object) -> BridgeNode
         return BridgeNode(loop, on_config)
     except (InvalidParameterTypeException, InvalidParameterValueException) as error:
         raise ArgumentError(str(error)) from error
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    with contextlib.suppress(ExternalShutdownException):
+        executor.spin()
 
 
 def _show(text: str) -> None:

@@ -10,6 +10,7 @@ import logging
 import ssl
 from collections import Counter
 from collections.abc import Awaitable, Callable
+from math import inf
 from typing import Any
 
 import orjson
@@ -208,7 +209,7 @@ class WebServer:
             await ws.prepare(request)
             role = self._role(request) or await self._auth(ws)
             if role:
-                await self._serve(ws, Client(identity(request.query.get("client")), role))
+                await self._serve(request, ws, Client(identity(request.query.get("client")), role))
         except (ConnectionError, asyncio.IncompleteReadError):
             pass
         finally:
@@ -230,13 +231,15 @@ class WebServer:
             await ws.close(code=WSCloseCode.POLICY_VIOLATION, message=b"not let in: no token, or a wrong one")
         return role
 
-    async def _serve(self, ws: web.WebSocketResponse, client: Client) -> None:
+    async def _serve(self, request: web.Request, ws: web.WebSocketResponse, client: Client) -> None:
         self._site.hub.clients.add(client)
         sender = asyncio.create_task(self._send(ws, client))
+        watch = asyncio.create_task(self._watch(request, client))
         try:
             await self._receive(ws, client)
         finally:
             sender.cancel()
+            watch.cancel()
             client.close()
             self._site.hub.clients.discard(client)
             if not self._site.hub.of(client.identity):
@@ -265,16 +268,25 @@ class WebServer:
                 return
 
     async def _send(self, ws: web.WebSocketResponse, client: Client) -> None:
+        loop = asyncio.get_running_loop()
         try:
             while True:
                 frame = await client.outbox.get()
                 kind = WSMsgType.TEXT if frame.text else WSMsgType.BINARY
-                await asyncio.wait_for(ws.send_frame(frame.data, kind), SILENCE_S)
-        except (TimeoutError, ConnectionError, RuntimeError):
-            # It takes nothing any more: no farewell, which would wait just as long.
-            transport = ws.get_extra_info("socket") and ws._req and ws._req.transport
-            if transport:
-                transport.abort()
+                client.sending_since_s = loop.time()
+                await ws.send_frame(frame.data, kind)
+                client.sending_since_s = inf
+        except (ConnectionError, RuntimeError):
+            return  # it has gone; the receiving side notices
+
+    async def _watch(self, request: web.Request, client: Client) -> None:
+        """Cuts a client off that takes nothing any more, without a farewell, which would wait just as long."""
+        loop = asyncio.get_running_loop()
+        while request.transport is not None:
+            if loop.time() - client.sending_since_s > SILENCE_S:
+                request.transport.abort()
+                return
+            await asyncio.sleep(SILENCE_S / 10)
 
 
 def _json(values: dict[str, Any], status: int = 200) -> web.Response:
