@@ -11,6 +11,7 @@ COMMANDS = {
     "record": "Record a walkthrough as a rosbag2 (MCAP) bag.",
     "recover": "Make a whole bag of one whose recording was cut off.",
     "replay": "Publish a recorded walkthrough again.",
+    "export": "Write a recorded walk as glTF, USD, video, camera path or table.",
     "python": "Run a Python script that uses the project's packages, such as those in examples/.",
     "params": "Print all parameters of the nodes with defaults, units and ranges as YAML.",
     "bench": "Measure every stage, side by side with the plain way, as JSON.",

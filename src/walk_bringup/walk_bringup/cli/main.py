@@ -21,6 +21,7 @@ _MODULES = {
     "record": "bags",
     "recover": "bags",
     "replay": "bags",
+    "export": "export",
     "python": "script",
     "params": "params",
     "bench": "bench",
