@@ -5,29 +5,37 @@
 import type { Parameter, ParameterValue } from "../client/state";
 import type { Slider } from "./widgets";
 
-/** A range that spans more than this is travelled by decades. */
-const DECADES_FROM = 300;
+/** A range that reaches this many times beyond the value is travelled by decades. */
+const DECADES_FROM = 1000;
 /** How far to both sides of the value it began with such a slider reaches. */
 const DECADES = 3;
 /** The lowest part of a travel by decades that stands for 0, where the range allows 0. */
 const ZERO_SHARE = 0.04;
-/** An open or huge range of whole numbers or lengths is cut to this many times the value. */
+/** An even travel reaches this many times the value, where the range is much longer. */
 const STRETCH = 4;
+/** How far the slider of a value of 0 reaches where nobody says otherwise. */
+const FROM_ZERO = 100;
 
 export interface Travel {
   value(position: number): number;
   position(value: number): number;
 }
 
-/** Returns how the knob travels. @param origin the value that the travel is laid around; it stays while one slides. */
-export function travelOf(parameter: Parameter, origin: number): Travel {
+/**
+ * Returns how the knob travels.
+ *
+ * @param origin the value that the travel is laid around; it stays while one slides.
+ * @param reach the part of the range that is worth a slider, where the value does not tell.
+ */
+export function travelOf(parameter: Parameter, origin: number, reach?: number): Travel {
   const low = parameter.min ?? Math.min(0, origin);
-  const high = parameter.max ?? Math.max(1, Math.abs(origin) * STRETCH);
-  if (origin > 0 && low >= 0 && high / Math.max(low, origin / 10 ** DECADES) > DECADES_FROM && parameter.type === "double") {
+  const high = parameter.max ?? Infinity;
+  const whole = parameter.type === "integer";
+  if (!reach && !whole && origin > 0 && low >= 0 && high >= DECADES_FROM * origin) {
     return byDecades(Math.max(low, origin / 10 ** DECADES), Math.min(high, origin * 10 ** DECADES), low === 0);
   }
-  const top = parameter.type === "integer" ? Math.min(high, Math.max(400, Math.abs(origin) * STRETCH)) : high;
-  return evenly(low, top, parameter.type === "integer");
+  const wanted = Math.max(reach ?? (origin === 0 ? FROM_ZERO : STRETCH * Math.abs(origin)), origin);
+  return evenly(low, high > 2 * wanted || reach ? Math.min(high, wanted) : high, whole);
 }
 
 function evenly(low: number, high: number, whole: boolean): Travel {
@@ -69,12 +77,12 @@ export function parameterSlider(
   parameter: Parameter,
   label: string,
   commit: (parameter: Parameter, value: ParameterValue) => void,
-  zeroReads = "",
+  { zeroReads = "", reach }: { zeroReads?: string; reach?: number } = {},
 ): Slider {
   const value = Number(parameter.value);
   const origin = origins.get(parameter.name) ?? value;
   origins.set(parameter.name, origin);
-  const travel = travelOf(parameter, origin);
+  const travel = travelOf(parameter, origin, reach);
   return {
     kind: "slider",
     id: parameter.name,

@@ -63,12 +63,12 @@ const GROUPS: readonly Group[] = [
   },
 ];
 
-/** What a value of 0 means where it is no quantity. */
-const ZERO_READS: Readonly<Record<string, string>> = {
-  "trajopt.points": "automatic",
-  "timing.duration_s": "as the speed gives",
-  "timing.dwell_s": "walk through",
-  "keypoints.count": "as the building needs",
+/** Sliders of values that begin at 0: what 0 means, and how far it is worth to slide. */
+const FROM_ZERO: Readonly<Record<string, { zeroReads: string; reach: number }>> = {
+  "trajopt.points": { zeroReads: "automatic", reach: 600 },
+  "timing.duration_s": { zeroReads: "as the speed gives", reach: 900 },
+  "timing.dwell_s": { zeroReads: "walk through", reach: 30 },
+  "keypoints.count": { zeroReads: "as the building needs", reach: 60 },
 };
 
 export function tuneSections(state: State, actions: Actions): Section[] {
@@ -83,7 +83,7 @@ export function tuneSections(state: State, actions: Actions): Section[] {
   const sections = GROUPS.map(({ id, title, sliders }): Section => {
     const widgets = Object.entries(sliders).flatMap(([name, label]): Widget[] => {
       const parameter = byName.get(name);
-      return parameter ? [{ ...parameterSlider(parameter, label, commit, ZERO_READS[name]), disabled }] : [];
+      return parameter ? [{ ...parameterSlider(parameter, label, commit, FROM_ZERO[name]), disabled }] : [];
     });
     return { id, title, widgets };
   });
