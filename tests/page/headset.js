@@ -96,6 +96,29 @@
         await hands.frames(2);
       }
     },
+    /** Keypoints that nobody planned, for tests of what is drawn. */
+    invent(places) {
+      const plain = { quat: [0, 0, 0, 1], label: "", locked: false, start: false, end: false, dwellS: null, lookAt: null };
+      const made = places.map((position, id) => ({ ...plain, id, position, unreachable: "", pending: false }));
+      walk.client.store.set("keypoints", made);
+    },
+    /** A hand that points at a widget of the panel from a forearm's distance. */
+    async atPanel(side, widget) {
+      const { panel } = walk.room;
+      const spot = panel.find(widget);
+      const at = walk.view.eye.clone().set((spot.x - 0.5) * panel.widthM, (0.5 - spot.y) * panel.heightM, 0);
+      const room = panel.group.localToWorld(at).toArray();
+      const eye = walk.view.eye.toArray();
+      hands.aim(side, room.map((value, axis) => value + (eye[axis] - value) * 0.4), room);
+      await hands.frames(3);
+    },
+    /** How far the head is from where the tour stands, on the floor. */
+    offTour() {
+      const at = walk.stage.player.position;
+      return Math.hypot(at[0] - walk.view.eye.x, -at[1] - walk.view.eye.z);
+    },
+    /** Waits until the planner has answered everything. */
+    answered: () => hands.until(() => walk.client.store.state.connection.unconfirmed === 0, "the answer"),
     /** Brings the grabbing point to a place without turning the hand. */
     async reachOnce(side, room) {
       const hand = walk.room.inputs[side];

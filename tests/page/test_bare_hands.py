@@ -41,7 +41,7 @@ def test_pinch_moves_a_keypoint(page):
       const tip = walk.room.inputs.right.tip.toArray();
       await hands.carry("right", tip, [tip[0] - 0.015, tip[1], tip[2]]);
       await hands.button("right", "", 0);
-      await hands.until(() => walk.client.store.state.connection.unconfirmed === 0, "the answer");
+      await hands.answered();
       await hands.frames(2);
       return { doing, start, end: hands.keypoint(id).position, refusals: walk.client.store.state.refusals };
     """)

@@ -25,14 +25,15 @@ def test_calls_and_triangles_of_both_eyes(browser, buildings_dir, tmp_path, next
         worst = page.js(f"""
           const {{ store, actions }} = walk.client;
           const [x, y, z] = store.state.building.start;
-          store.set("keypoints", Array.from({{ length: {KEYPOINTS} }}, (_, i) => ({{
-            id: i, position: [x + Math.cos(i) * 2, y + Math.sin(i) * 2, z + 1.6], quat: [0, 0, 0, 1], label: "", locked: false,
-            start: false, end: false, dwellS: null, lookAt: null, unreachable: "", pending: false }})));
+          const around = (_, i) => [x + Math.cos(i) * 2, y + Math.sin(i) * 2, z + 1.6];
+          hands.invent(Array.from({{ length: {KEYPOINTS} }}, around));
           const path = store.state.path;
           const rows = 3000;
           path.count = rows;
-          path.positions = Float32Array.from({{ length: 3 * rows }}, (_, i) => [x + Math.floor(i / 3) / 1000, y, z + 1.6][i % 3]);
-          for (const field of ["quats", "timeS", "speedMps", "heightM", "clearanceM"]) path[field] = new Float32Array(4 * rows);
+          const along = (_, i) => [x + Math.floor(i / 3) / 1000, y, z + 1.6][i % 3];
+          path.positions = Float32Array.from({{ length: 3 * rows }}, along);
+          const rest = ["quats", "timeS", "speedMps", "heightM", "clearanceM"];
+          for (const field of rest) path[field] = new Float32Array(4 * rows);
           store.touch("path");
           await walk.xr.enter();
           await hands.until(() => walk.view.presenting && walk.view.frames > 3, "the session");
@@ -63,7 +64,10 @@ def test_memory_is_flat_while_nothing_happens(headset):
     grown = headset.js("""
       hands.head([0, 1.6, 0]);
       await hands.frames(60);
-      const used = async () => { for (let i = 0; i < 4; i++) { gc(); await hands.frames(2); } return performance.memory.usedJSHeapSize; };
+      const used = async () => {
+        for (let i = 0; i < 4; i++) { gc(); await hands.frames(2); }
+        return performance.memory.usedJSHeapSize;
+      };
       const first = await used();
       await hands.frames(600);
       return (await used()) - first;

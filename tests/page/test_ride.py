@@ -51,12 +51,11 @@ def test_ride_carries_the_rig_along_the_path_and_any_button_stops_it(headset):
       await actions.play();
       await hands.until(() => walk.room.rider.ride.phase === "on" && store.state.playback.playing, "the ride");
       await hands.frames(3);
-      const off = () => { const p = walk.stage.player.position, e = walk.view.eye; return Math.hypot(p[0] - e.x, -p[1] - e.z); };
-      const feet = () => walk.view.rig.position.y;
-      const [first, start] = [off(), walk.view.eye.toArray()];
+      const [first, start] = [hands.offTour(), walk.view.eye.toArray()];
       await hands.frames(60);
-      const rode = { first, last: off(), feet: feet(), way: Math.hypot(walk.view.eye.x - start[0], walk.view.eye.z - start[2]),
-        tilt: [walk.view.rig.rotation.x, walk.view.rig.rotation.z], vignette: walk.room.comfort.vignette,
+      const { eye, rig } = walk.view;
+      const rode = { first, last: hands.offTour(), feet: rig.position.y, tilt: [rig.rotation.x, rig.rotation.z],
+        way: Math.hypot(eye.x - start[0], eye.z - start[2]), vignette: walk.room.comfort.vignette,
         figure: walk.stage.inFull.walker.visible };
       await hands.click("left", "trigger");
       await hands.until(() => !store.state.playback.playing, "the stop");
@@ -105,8 +104,7 @@ def test_who_strays_is_led_back_and_the_tour_goes_on(headset):
         return walk.room.rider.ride.phase === "on" && store.state.playback.playing;
       }, "the tour");
       await hands.frames(5);
-      const p = walk.stage.player.position;
-      const off = Math.hypot(p[0] - walk.view.eye.x, -p[1] - walk.view.eye.z);
+      const off = hands.offTour();
       await actions.stop();
       actions.set({ playbackPlace: "miniature" });
       return { ...strayed, led, most, off, timeS: store.state.playback.timeS };

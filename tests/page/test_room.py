@@ -35,7 +35,11 @@ def page(headset):
 def test_squeeze_carries_the_miniature_upright_and_puts_it_down(page):
     was, held, put = page.js("""
       const { group } = walk.stage.miniature;
-      const pose = () => ({ at: group.getWorldPosition(walk.view.eye.clone()).toArray(), up: walk.view.eye.clone().set(0, 0, 1).transformDirection(group.matrixWorld).toArray() });
+      const vector = () => walk.view.eye.clone();
+      const pose = () => ({
+        at: group.getWorldPosition(vector()).toArray(),
+        up: vector().set(0, 0, 1).transformDirection(group.matrixWorld).toArray(),
+      });
       const was = pose();
       await hands.button("right", "squeeze", 1);
       hands.device.controllers.right.position.set(0.3, 1.3, -0.1);
@@ -188,7 +192,8 @@ def test_pointing_into_the_miniature_teleports_there_at_full_scale(page):
 
 def test_what_is_at_hand_comes_along(page):
     before, after = page.js("""
-      const off = () => [walk.stage.bin.group.position, walk.stage.miniature.group.getWorldPosition(walk.view.eye.clone())]
+      const { bin, miniature } = walk.stage;
+      const off = () => [bin.group.position, miniature.group.getWorldPosition(walk.view.eye.clone())]
         .map((at) => at.clone().sub(walk.view.eye).toArray());
       const before = off();
       walk.room.travel.goTo(2, 1, 0, true);

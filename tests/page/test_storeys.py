@@ -20,9 +20,7 @@ def page(browser, tmp_path_factory):
         page.js("""
           await hands.until(() => window.walk?.stage.models, "the building", 120000);
           const { store } = walk.client;
-          store.set("keypoints", store.state.building.rooms.map((room, i) => ({
-            id: i, position: [room.centre[0], room.centre[1], room.centre[2] + 1.6], quat: [0, 0, 0, 1], label: room.name,
-            locked: false, start: false, end: false, dwellS: null, lookAt: null, unreachable: "", pending: false })));
+          hands.invent(store.state.building.rooms.map(({ centre: [x, y, z] }) => [x, y, z + 1.6]));
           await walk.xr.enter();
           await hands.until(() => walk.view.presenting && walk.view.frames > 5, "the session");
           hands.head([0, 1.6, 0]);
@@ -75,7 +73,8 @@ def test_the_cut_changes_the_miniature_and_never_the_building_around(page):
       walk.client.actions.showStorey(0);
       await hands.frames(3);
       const of = (copy) => copy.group.children.map((child) => child.material.clippingPlanes?.length ?? 0);
-      return { mini: of(walk.stage.miniature.copy), full: of(walk.stage.full), renderer: walk.view.renderer.clippingPlanes.length };
+      const { miniature, full } = walk.stage;
+      return { mini: of(miniature.copy), full: of(full), renderer: walk.view.renderer.clippingPlanes.length };
     """)
     assert set(planes["mini"]) == {1}
     assert set(planes["full"]) == {0}
@@ -107,9 +106,8 @@ def test_walls_are_filled_where_they_are_cut(page):
         view.renderer.setRenderTarget(target);
         xr.enabled = true;
         let caps = 0;
-        for (let i = 0; i < pixels.length; i += 4) {
-          if (Math.abs(pixels[i] - 57) < 4 && Math.abs(pixels[i + 1] - 66) < 4 && Math.abs(pixels[i + 2] - 77) < 4) caps += 1;
-        }
+        const like = (at) => [57, 66, 77].every((value, channel) => Math.abs(pixels[at + channel] - value) < 4);
+        for (let i = 0; i < pixels.length; i += 4) if (like(i)) caps += 1;
         return caps / (w * h);
       };
       return [await share(-1), await share(0)];

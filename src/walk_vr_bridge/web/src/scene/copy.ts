@@ -37,6 +37,7 @@ export class BuildingCopy {
   /** Lets one look through the walls. */
   setThin(thin: boolean): void {
     this.solid.material.setOpacity(thin ? THIN_OPACITY : 1);
+    this.solid.material.uniforms.uCaps.value = thin ? 0 : 1;
     this.solid.renderOrder = thin ? 15 : 0;
   }
 

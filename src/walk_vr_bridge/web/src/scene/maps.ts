@@ -4,10 +4,12 @@
 import { type Box3, type BufferGeometry, type Data3DTexture, Plane, Vector3 } from "three";
 import type { ChannelName } from "../client/state";
 import type { Store } from "../client/store";
-import type { Clip } from "./clipping";
+import { type Clip, CUT_OVER_FLOOR_M } from "./clipping";
 import type { MapView } from "./mapview";
-import type { StageMode } from "./stage";
-import { choosePoints, makeTexture } from "./volume";
+import { choosePoints, makeTexture, rangeIndoors } from "./volume";
+
+/** How far over a floor a map is laid on it [m]. */
+const OVER_FLOOR_M = 0.04;
 
 /** The map that the user chose, in the full scale and in the miniature; texture and points are made once a revision. */
 export class Maps {
@@ -29,16 +31,26 @@ export class Maps {
     this.choose();
   }
 
-  /** Once a frame: lays the slices along the miniature's cut and on the floor that the viewer stands on [m]. */
-  update(clip: Clip, bounds: Box3, floorZ: number, mode: StageMode): void {
+  /**
+   * Once a frame: lays the slices. Where the miniature is cut along a storey, what the cut meets is shown on that storey's floor,
+   * so that keypoints and path stand on the map instead of below it; a free cut carries the map itself.
+   *
+   * @param floorZ the floor that the viewer stands on [m].
+   */
+  update(clip: Clip, bounds: Box3, floorZ: number, inHand: boolean): void {
     if (!this.shown) return;
     bounds.getCenter(this.middle);
     const width = 1.5 * bounds.getSize(this.size).length();
-    this.miniature.setSlice(clip.active ? clip.plane : null, this.middle, width);
+    const storey = clip.active ? this.store.state.building?.storeys[clip.storey] : undefined;
+    this.carpet.constant = (storey?.floorZ ?? 0) + OVER_FLOOR_M;
+    const cut = storey ? this.carpet : clip.active ? clip.plane : null;
+    this.miniature.setSlice(cut, this.middle, width, storey ? clip.plane.constant - this.carpet.constant : 0);
     this.miniature.showPoints(!clip.active);
-    this.miniature.setPointSize(mode === "room" ? 4 : 160);
-    this.carpet.constant = floorZ + 0.03;
-    this.full.setSlice(this.carpet, this.middle, width);
+    this.miniature.setPointSize(inHand ? 4 : 160);
+    this.carpet.constant = floorZ + OVER_FLOOR_M;
+    this.full.setSlice(this.carpet, this.middle, width, CUT_OVER_FLOOR_M);
+    // In a room that one stands in, points in the air are in the way; of obstacles they lie on what is there anyway.
+    this.full.showPoints(this.store.state.settings.map === "obstacle");
     this.full.setPointSize(24);
   }
 
@@ -57,8 +69,9 @@ export class Maps {
     this.texture ??= makeTexture(importance);
     const points = this.points.get(settings.map) ?? choosePoints(importance, settings.map);
     this.points.set(settings.map, points);
-    this.full.show(importance, settings.map, this.texture, points);
-    this.miniature.show(importance, settings.map, this.texture, points);
+    const range = rangeIndoors(importance, settings.map, this.store.state.building?.storeys ?? []);
+    this.full.show(importance, settings.map, this.texture, points, range);
+    this.miniature.show(importance, settings.map, this.texture, points, range);
   }
 
   private forget(): void {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 import { BufferGeometry, type Data3DTexture, Group, Mesh, type Plane, PlaneGeometry, Points } from "three";
-import { DoubleSide, GLSL3, Matrix4, Quaternion, ShaderMaterial, Vector3 } from "three";
+import { DoubleSide, GLSL3, Matrix4, Quaternion, ShaderMaterial, Vector2, Vector3 } from "three";
 import type { ChannelName, ImportanceState } from "../client/state";
 import { SCALE_GLSL } from "./colourmap";
 import { channelIndex } from "./volume";
@@ -24,6 +24,7 @@ uniform vec4 uChannel;
 uniform vec4 uFull;
 uniform float uSolid;
 uniform float uLift;
+uniform vec2 uRange;
 in vec3 vMap;
 out vec4 colour;
 ${SCALE_GLSL}
@@ -33,7 +34,7 @@ void main() {
   vec4 voxel = texture(uVolume, at);
   float full = dot(voxel, uFull);
   if (uSolid > 0.5 ? full < 0.5 : full > 0.5) discard;
-  colour = uSolid > 0.5 ? vec4(0.72, 0.2, 0.17, 0.9) : vec4(scaleColour(dot(voxel, uChannel)), 0.88);
+  colour = uSolid > 0.5 ? vec4(0.72, 0.2, 0.17, 0.9) : vec4(scaleColour((dot(voxel, uChannel) - uRange.x) / uRange.y), 0.86);
 }`;
 const POINT_VERTEX = `
 #include <clipping_planes_pars_vertex>
@@ -50,6 +51,7 @@ void main() {
 const POINT_FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform float uSolid;
+uniform vec2 uRange;
 in float vValue;
 out vec4 colour;
 ${SCALE_GLSL}
@@ -57,7 +59,7 @@ void main() {
   #include <clipping_planes_fragment>
   vec2 off = gl_PointCoord - 0.5;
   if (dot(off, off) > 0.25) discard;
-  colour = vec4(uSolid > 0.5 ? vec3(0.72, 0.2, 0.17) : scaleColour(vValue), 0.8);
+  colour = vec4(uSolid > 0.5 ? vec3(0.72, 0.2, 0.17) : scaleColour((vValue - uRange.x) / uRange.y), 0.8);
 }`;
 
 /** One map of the building, as a slice along a plane and as points. */
@@ -66,9 +68,9 @@ export class MapView {
   private readonly slice: Mesh<PlaneGeometry, ShaderMaterial>;
   private readonly points: Points<BufferGeometry, ShaderMaterial>;
 
-  /** @param liftM how far over the slice the map is read [m]: a slice on the floor shows what is at the eye. */
-  constructor(planes: Plane[], liftM: number) {
+  constructor(planes: Plane[]) {
     const solid = { value: 0 };
+    const range = { value: new Vector2(0, 1) };
     const slice = new ShaderMaterial({
       glslVersion: GLSL3,
       vertexShader: SLICE_VERTEX,
@@ -83,7 +85,8 @@ export class MapView {
         uChannel: { value: [0, 0, 0, 1] },
         uFull: { value: [1, 0, 0, 0] },
         uSolid: solid,
-        uLift: { value: liftM },
+        uLift: { value: 0 },
+        uRange: range,
         uPlace: { value: new Matrix4() },
       },
     });
@@ -95,7 +98,7 @@ export class MapView {
       clippingPlanes: planes,
       transparent: true,
       depthWrite: false,
-      uniforms: { uSolid: solid, uPixels: { value: 20 } },
+      uniforms: { uSolid: solid, uRange: range, uPixels: { value: 20 } },
     });
     this.slice = new Mesh(new PlaneGeometry(1, 1), slice);
     this.points = new Points(new BufferGeometry(), dots);
@@ -107,11 +110,18 @@ export class MapView {
   }
 
   /** Shows one channel of the map: its texture along the slice, its points. */
-  show(map: ImportanceState, channel: ChannelName, texture: Data3DTexture, points: BufferGeometry): void {
+  show(
+    map: ImportanceState,
+    channel: ChannelName,
+    texture: Data3DTexture,
+    points: BufferGeometry,
+    range: readonly [number, number],
+  ): void {
     const { uniforms } = this.slice.material;
     uniforms.uVolume.value = texture;
     uniforms.uOrigin.value.fromArray(map.origin);
     uniforms.uSize.value.fromArray(map.shape).multiplyScalar(map.voxelM);
+    uniforms.uRange.value.set(range[0], Math.max(1e-3, range[1] - range[0]));
     uniforms.uSolid.value = channel === "obstacle" ? 1 : 0;
     mask(uniforms.uChannel.value as number[], channelIndex(map, channel));
     mask(uniforms.uFull.value as number[], channelIndex(map, "obstacle"));
@@ -131,9 +141,14 @@ export class MapView {
     this.points.material.uniforms.uPixels.value = pixelsAtOneMetre;
   }
 
-  /** Lays the slice along the plane (its normal points to what is kept), around the middle, as wide as needed [m]. */
-  setSlice(plane: Plane | null, middle: Vector3, width: number): void {
+  /**
+   * Lays the slice along the plane (its normal points to what is kept), around the middle, as wide as needed [m].
+   *
+   * @param liftM how far over the slice the map is read: a slice on the floor shows what is at a cut above it.
+   */
+  setSlice(plane: Plane | null, middle: Vector3, width: number, liftM: number): void {
     this.slice.visible = plane !== null;
+    this.slice.material.uniforms.uLift.value = liftM;
     if (!plane) return;
     plane.projectPoint(middle, AT);
     // A hair on the kept side: the cap and the slice must not fight for one depth.

@@ -25,7 +25,6 @@ export class Overlay {
   /**
    * @param belowEyeM how far under the eye keypoints are drawn.
    * @param pathBelowEyeM how far under the eye the path is drawn.
-   * @param mapLiftM how far over its slice the map is read.
    */
   constructor(
     name: "full" | "miniature",
@@ -33,14 +32,13 @@ export class Overlay {
     tube: PathTube,
     planes: Plane[],
     belowEyeM: number,
-    readonly pathBelowEyeM: number,
-    mapLiftM: number,
+    pathBelowEyeM: number,
   ) {
     this.place = new Place(name, group, belowEyeM);
     this.numbers = new Numbers(name === "miniature");
     this.pins = new Pins(1.6 - belowEyeM);
     this.path = new PathView(tube, planes, name === "miniature" ? 0.22 : 0);
-    this.map = new MapView(planes, mapLiftM);
+    this.map = new MapView(planes);
     const lowered = new Group();
     lowered.position.z = -belowEyeM;
     lowered.add(this.pins.group, this.numbers.mesh);

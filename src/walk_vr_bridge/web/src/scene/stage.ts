@@ -28,7 +28,7 @@ const EYE_M = 1.6;
 /** How far under the eye things are drawn [m]: below a storey's cut in the miniature, below the chin at full scale. */
 const MINIATURE_BELOW_M = 0.6;
 const FULL_BELOW_M = 0.35;
-const FULL_PATH_BELOW_M = 1.52;
+const FULL_PATH_BELOW_M = 1.35;
 const REFUSAL_S = 6;
 /** A keypoint in the miniature, in the room [m]. */
 const PIN_IN_HAND_M = 0.0075;
@@ -58,6 +58,7 @@ export class Stage {
   private shown = "";
   private drawn = false;
   private refusals = 0;
+  private wasCut = false;
 
   constructor(
     readonly view: View,
@@ -68,9 +69,9 @@ export class Stage {
     this.world.add(this.fullGroup);
     this.miniature = new Miniature(this.world);
     const none: Plane[] = [];
-    this.inFull = new Overlay("full", this.fullGroup, this.tube, none, FULL_BELOW_M, FULL_PATH_BELOW_M, EYE_M);
+    this.inFull = new Overlay("full", this.fullGroup, this.tube, none, FULL_BELOW_M, FULL_PATH_BELOW_M);
     const { group, planes } = this.miniature;
-    this.inMiniature = new Overlay("miniature", group, this.tube, planes, MINIATURE_BELOW_M, MINIATURE_BELOW_M, 0);
+    this.inMiniature = new Overlay("miniature", group, this.tube, planes, MINIATURE_BELOW_M, MINIATURE_BELOW_M);
     this.overlays = [this.inMiniature, this.inFull];
     this.maps = new Maps(store, this.inFull.map, this.inMiniature.map);
     this.setMode("model");
@@ -165,6 +166,7 @@ export class Stage {
     paintPath(this.tube, path, settings.pathColour);
     const thin = settings.surface === "transparent";
     const { clip } = this.miniature;
+    this.wasCut = clip.active;
     this.full.setThin(thin);
     this.miniature.copy.setThin(thin || (settings.map !== "none" && !clip.active));
     this.drawn = false;
@@ -191,12 +193,13 @@ export class Stage {
 
   private update(seconds: number): void {
     const { view, miniature } = this;
+    if (miniature.clip.active !== this.wasCut) this.restyle();
     miniature.update();
     this.setSizes();
     this.full.lookFrom(view.eye);
     miniature.copy.lookFrom(view.eye);
     this.drawKeypoints();
-    this.maps.update(miniature.clip, this.bounds, this.viewerFloor(), this.mode);
+    this.maps.update(miniature.clip, this.bounds, this.viewerFloor(), this.mode === "room");
     this.walk();
     this.refusalNote.update(seconds, view.camera, view.eye);
     this.nameNote.update(seconds, view.camera, view.eye);

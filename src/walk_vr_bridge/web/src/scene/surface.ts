@@ -34,7 +34,7 @@ varying float vSolid;
 void main() {
   #include <clipping_planes_fragment>
   if (!gl_FrontFacing && vSolid > 0.5 && uCaps > 0.5) {
-    gl_FragColor = vec4(uCap, max(uOpacity, 0.6));
+    gl_FragColor = vec4(uCap, 1.0);
   } else {
     vec3 normal = normalize(cross(dFdx(vMap), dFdy(vMap)));
     float sky = normal.z * 0.5 + 0.5;

@@ -4,7 +4,8 @@
 /** The importance volume as a texture, and the points of it that are worth showing. */
 
 import { BufferAttribute, BufferGeometry, Data3DTexture, LinearFilter, RGBAFormat, UnsignedByteType } from "three";
-import type { ChannelName, ImportanceState } from "../client/state";
+import type { ChannelName, ImportanceState, Ring, Storey } from "../client/state";
+import { CUT_OVER_FLOOR_M } from "./clipping";
 
 export const MAX_POINTS = 20000;
 
@@ -56,6 +57,45 @@ export function choosePoints(map: ImportanceState, channel: ChannelName): Buffer
   geometry.setAttribute("position", new BufferAttribute(Float32Array.from(places), 3));
   geometry.setAttribute("aValue", new BufferAttribute(Float32Array.from(values), 1));
   return geometry;
+}
+
+/** Fewer voxels than this say nothing about what is usual. */
+const ENOUGH = 20;
+
+/**
+ * Returns between which values, 0 to 1, the map lies where one walks: the 2nd and 98th percentile over the walkable floors, at the
+ * height of a cut. The colours are spread over these: outdoors, values can be far from any indoors.
+ */
+export function rangeIndoors(map: ImportanceState, channel: ChannelName, storeys: readonly Storey[]): [number, number] {
+  const [nx, ny, nz] = map.shape;
+  const [full, shown] = [channelIndex(map, "obstacle"), channelIndex(map, channel)];
+  const values: number[] = [];
+  for (const { floorZ, outline } of storeys) {
+    const layer = Math.floor((floorZ + CUT_OVER_FLOOR_M - map.origin[2]) / map.voxelM);
+    if (layer < 0 || layer >= nz) continue;
+    for (let i = 0; i < nx * ny; i++) {
+      const x = map.origin[0] + ((i % nx) + 0.5) * map.voxelM;
+      const y = map.origin[1] + (Math.floor(i / nx) + 0.5) * map.voxelM;
+      const at = 4 * (layer * nx * ny + i);
+      if (map.data[at + full] <= 127 && inside(outline, x, y)) values.push(map.data[at + shown]);
+    }
+  }
+  if (channel === "obstacle" || values.length < ENOUGH) return [0, 1];
+  values.sort((a, b) => a - b);
+  const percentile = (share: number): number => values[Math.round(share * (values.length - 1))] / 255;
+  return [percentile(0.02), percentile(0.98)];
+}
+
+/** Even-odd rule over all rings. */
+function inside(rings: readonly Ring[], x: number, y: number): boolean {
+  let odd = false;
+  for (const ring of rings) {
+    for (let i = 0, j = ring.length - 1; i < ring.length; j = i++) {
+      const [[ax, ay], [bx, by]] = [ring[i], ring[j]];
+      if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) odd = !odd;
+    }
+  }
+  return odd;
 }
 
 /** A number from 0 up to 1 that looks random and is always the same for an index. */

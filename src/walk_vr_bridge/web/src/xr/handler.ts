@@ -111,10 +111,16 @@ export class Handler {
     if (this.doing === "keypoint") this.proceedKeypoint();
     else if (this.doing === "add") this.proceedAdd();
     else if (this.doing === "knob" && this.knob) {
-      if (world.knobs.follow(hand, this.knob)) hand.pulse(...TICK.snap);
+      if (world.knobs.follow(hand, this.knob)) this.snapped();
       if (!hand.trigger.down) this.doing = "nothing";
     } else if (this.doing === "panel") this.proceedPanel();
     else if (this.doing === "aim" && !hand.trigger.down) this.doing = "nothing";
+  }
+
+  /** The cut has met a storey: the panel shows it, too. */
+  private snapped(): void {
+    this.hand.pulse(...TICK.snap);
+    this.world.actions.showStorey(this.world.stage.miniature.clip.storey);
   }
 
   private proceedKeypoint(): void {

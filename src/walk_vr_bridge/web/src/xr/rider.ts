@@ -49,7 +49,8 @@ export class Rider {
     this.stage.riding = false;
   }
 
-  update(inputs: Inputs, seconds: number): void {
+  /** @param carried whether the tour moved the user when this frame began: the press that starts it does not stop it. */
+  update(inputs: Inputs, carried: boolean, seconds: number): void {
     const { playback, settings } = this.store.state;
     const { ride } = this;
     const started = playback.playing && !this.wasPlaying;
@@ -65,7 +66,7 @@ export class Rider {
       void this.actions.pause();
       ride.leadBack();
     }
-    this.listenToHands(inputs);
+    this.listenToHands(inputs, carried);
     this.stage.riding = ride.phase === "on";
     if (ride.phase === "on") this.follow(seconds);
     else if (ride.phase === "strayed") this.wander();
@@ -81,11 +82,11 @@ export class Rider {
   }
 
   /** Any button stops what carries the user; walking or jumping off is straying. */
-  private listenToHands(inputs: Inputs): void {
+  private listenToHands(inputs: Inputs, carried: boolean): void {
     const { ride, travel } = this;
     if (ride.phase === "off") return;
     const walks = travel.speed > 0 || travel.jumped;
-    if (this.carries && (inputs.anyPressed || walks)) {
+    if (carried && (inputs.anyPressed || walks)) {
       if (ride.phase === "on") void this.actions.pause();
       this.stray();
     } else if (ride.phase === "on" && walks) this.stray();

@@ -95,6 +95,13 @@ export class XrRoom implements HandlerWorld {
     this.panel.group.rotation.set(0, Math.atan2(this.view.eye.x - x, this.view.eye.z - z), 0);
   }
 
+  /** While the tour carries the user, nothing hangs in front of the eyes. */
+  private clearTheWay(clear: boolean): void {
+    this.stage.miniature.group.visible = !clear;
+    this.stage.bin.group.visible = !clear;
+    if (this.panel) this.panel.group.visible = !clear;
+  }
+
   private longest(): number {
     const size = this.stage.bounds.getSize(new Vector3());
     return Math.max(size.x, size.y, size.z, 0.1);
@@ -124,8 +131,9 @@ export class XrRoom implements HandlerWorld {
     const carried = this.rider.carries;
     this.travel.update(this.inputs, this.store.state.settings, seconds);
     if (!carried) this.buttons();
-    this.rider.update(this.inputs, seconds);
+    this.rider.update(this.inputs, carried, seconds);
     if (!carried) for (let i = 0; i < 2; i++) this.handlers[i].update();
+    this.clearTheWay(this.rider.carries);
     this.carryMiniature();
     this.showHands();
     this.knobs.update();
