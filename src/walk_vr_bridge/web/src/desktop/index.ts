@@ -11,6 +11,7 @@ import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
 import { StudyView } from "../study/view";
 import type { XrEntry } from "../xr/session";
+import { coveredBy, type Covered } from "./covered";
 import { curtain, help, pairing } from "./dialogs";
 import { dragOut } from "./drag_out";
 import { Ground } from "./ground";
@@ -49,7 +50,9 @@ export class Desktop {
     this.study = new StudyView(client, download);
     this.panel = new PanelModel(client, this.study);
     this.panel.startClock();
-    const covered = (): { right: number; bottom: number } => this.covered();
+    const playbar = new Playbar(client).root;
+    const covered = (): Covered =>
+      coveredBy({ head: this.header.root, rail: this.rail.root, panel: this.domPanel.root, playbar });
     this.stroll = new Stroll(view, stage);
     this.viewpoints = { orbit: new Orbit(view, stage, covered), plan: new Plan(view, stage, covered), walk: this.stroll };
     this.current = this.viewpoints.orbit;
@@ -61,7 +64,7 @@ export class Desktop {
     this.header = new Header(client, xr, { view: (name) => this.show(name), help: showHelp });
     this.rail = new StoreyRail(client, () => this.current.name);
     const toasts = new Toasts(view, stage, client, () => this.current.camera);
-    const parts = [this.header.root, this.rail.root, this.domPanel.root, new Playbar(client).root, toasts.root];
+    const parts = [this.header.root, this.rail.root, this.domPanel.root, playbar, toasts.root];
     this.page.append(...parts, curtain(client), pairing(client), guide);
     document.querySelector("#page")!.append(this.page);
     listenToKeys({
@@ -144,13 +147,6 @@ export class Desktop {
     // Here refusals are elements of the page, which read better than a picture.
     this.stage.refusalNote.hide();
     toasts.frame();
-  }
-
-  /** How much of the view the panel covers [px]. */
-  private covered(): { right: number; bottom: number } {
-    const box = this.domPanel.root.getBoundingClientRect();
-    const sheet = box.width > window.innerWidth * 0.8;
-    return sheet ? { right: 0, bottom: window.innerHeight - box.top } : { right: window.innerWidth - box.left, bottom: 0 };
   }
 }
 

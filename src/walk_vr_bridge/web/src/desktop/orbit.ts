@@ -5,6 +5,7 @@
 import { type Camera, Vector3 } from "three";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
+import type { Covered } from "./covered";
 import { extent } from "./extent";
 import type { Viewpoint } from "./viewpoint";
 
@@ -14,7 +15,8 @@ const MOST_POLAR = 1.5;
 const LEAST_M = 1.5;
 /** Keypoints stay about this large in the picture: their radius over the distance. */
 const PIN_PART = 0.0085;
-const MARGIN = 1.08;
+/** A sphere around the building is larger than its picture: one comes this much nearer. */
+const SNUG = 0.9;
 /** The camera glides to where it is sent [1/s]. */
 const GLIDE = 12;
 
@@ -27,7 +29,7 @@ export class Orbit implements Viewpoint {
   constructor(
     private readonly view: View,
     private readonly stage: Stage,
-    private readonly covered: () => { right: number; bottom: number },
+    private readonly covered: () => Covered,
   ) {}
 
   get camera(): Camera {
@@ -55,11 +57,11 @@ export class Orbit implements Viewpoint {
     const { wanted } = this;
     wanted.target.set(bounds.min.x + size.x / 2, z, -(bounds.min.y + size.y / 2));
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
-    const { right, bottom } = this.covered();
-    const aspect = Math.max(0.3, (width - right) / Math.max(1, height - bottom));
-    const half = Math.tan(((this.view.camera.fov / 2) * Math.PI) / 180) * ((height - bottom) / height);
+    const { left, right, top, bottom } = this.covered();
+    const free = { width: Math.max(60, width - left - right), height: Math.max(60, height - top - bottom) };
+    const half = Math.tan(((this.view.camera.fov / 2) * Math.PI) / 180) * (free.height / height);
     const radius = Math.hypot(size.x, size.y, floorZ === undefined ? size.z : 3) / 2;
-    wanted.distance = (MARGIN * radius) / half / Math.min(1, aspect) / 1.15;
+    wanted.distance = (SNUG * radius) / half / Math.min(1, free.width / free.height);
     this.jump();
   }
 
@@ -122,8 +124,8 @@ export class Orbit implements Viewpoint {
   /** Centres the picture in what the panel leaves free. */
   private shift(): void {
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
-    const { right, bottom } = this.covered();
-    this.view.camera.setViewOffset(width, height, right / 2, bottom / 2, width, height);
+    const { left, right, top, bottom } = this.covered();
+    this.view.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
   }
 }
 

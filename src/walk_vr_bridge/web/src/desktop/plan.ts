@@ -5,10 +5,11 @@
 import { OrthographicCamera } from "three";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
+import type { Covered } from "./covered";
 import { extent } from "./extent";
 import type { Viewpoint } from "./viewpoint";
 
-const MARGIN = 1.12;
+const MARGIN = 1.06;
 const LEAST_M = 2;
 /** Radius of a keypoint over the height of what is shown. */
 const PIN_PART = 0.0115;
@@ -26,7 +27,7 @@ export class Plan implements Viewpoint {
   constructor(
     private readonly view: View,
     private readonly stage: Stage,
-    private readonly covered: () => { right: number; bottom: number },
+    private readonly covered: () => Covered,
   ) {}
 
   enter(): void {
@@ -49,13 +50,13 @@ export class Plan implements Viewpoint {
     const bounds = extent(this.stage);
     this.fittedTo = (models && store.state.building?.hash) || "";
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
-    const { right, bottom } = this.covered();
+    const { left, right, top, bottom } = this.covered();
     const [wide, tall] = [bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y];
-    const free = { width: Math.max(50, width - right), height: Math.max(50, height - bottom) };
+    const free = { width: Math.max(50, width - left - right), height: Math.max(50, height - top - bottom) };
     this.heightM = MARGIN * height * Math.max(wide / free.width, tall / free.height);
     const perPx = this.heightM / height;
-    this.centreX = (bounds.min.x + bounds.max.x) / 2 + (right / 2) * perPx;
-    this.centreY = (bounds.min.y + bounds.max.y) / 2 - (bottom / 2) * perPx;
+    this.centreX = (bounds.min.x + bounds.max.x) / 2 + ((right - left) / 2) * perPx;
+    this.centreY = (bounds.min.y + bounds.max.y) / 2 - ((bottom - top) / 2) * perPx;
   }
 
   drag(dx: number, dy: number): void {

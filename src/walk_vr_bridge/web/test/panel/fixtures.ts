@@ -27,7 +27,7 @@ export function setUp() {
   store.patch("session", { role: "editor" });
   store.set("keypoints", [keypoint(3, { start: true }), keypoint(7, { locked: true }), keypoint(9, { unreachable: "no floor below" })]);
   store.set("parameters", [
-    parameter("trajopt.optimise", true),
+    parameter("trajopt.mode", "optimised"),
     parameter("trajopt.weight_smoothness", 1),
     parameter("trajopt.clearance_m", 0.42, { unit: "m", max: 10 }),
     parameter("sequencer.method", "auto", { node: "sequencer" }),

@@ -57,7 +57,7 @@ describe("the panel's model", () => {
     smooth.commit(1);
     expect(asked.at(-1)).toEqual(["setParameter", store.state.parameters[1], 1000]);
     find(model, "toggle", "optimiser").set(false);
-    expect(asked.at(-1)).toEqual(["setParameter", store.state.parameters[0], false]);
+    expect(asked.at(-1)).toEqual(["setParameter", store.state.parameters[0], "catmull_rom"]);
   });
 
   it("offers no slider and no optimiser switch that the planner does not have", () => {

@@ -52,7 +52,7 @@ describe("a study", () => {
     const world = begun();
     goThrough(world, 30);
     goThrough(world, 10);
-    expect(world.asked.map(([name, , value]) => [name, value])).toEqual([["setParameter", false], ["setParameter", true]]);
+    expect(world.asked.map(([name, , value]) => [name, value])).toEqual([["setParameter", "catmull_rom"], ["setParameter", "optimised"]]);
     // Ratings 0, 5 ... 25 by scale; the first of each pair chosen: weights 5, 4, 3, 2, 1, 0.
     const tlx = { rawTlx: 12.5, weightedTlx: (0 * 5 + 5 * 4 + 10 * 3 + 15 * 2 + 20 * 1) / 15 };
     expect(world.study.run.scores).toEqual([
