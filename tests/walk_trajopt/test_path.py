@@ -77,6 +77,16 @@ def test_the_quick_check_agrees_with_dense_sampling(rooms: Building) -> None:
     np.testing.assert_array_equal(found, dense)
 
 
+@pytest.mark.parametrize(("gap_m", "passes"), [(0.0, False), (0.00015, False), (0.0003, True), (0.002, True)])
+def test_the_quick_check_is_stricter_than_the_library_along_a_wall(hall: Building, gap_m: float, passes: bool) -> None:
+    y = hall.walker.radius_m + gap_m
+    # Grazing in parallel, in a long and in short segments, and towards and away from the wall.
+    points = eyes((3, y), (9, y), (9.05, y), (9.1, y), (9.4, y + 0.2), (9.7, y), (9.7, y))
+    found = PathCheck(hall.geometry, hall.walker).segments_free(points)
+    np.testing.assert_array_equal(found, passes)
+    assert not (found & ~BodySweep(hall.geometry, hall.walker).segments_free(points)).any()
+
+
 def test_path_is_free_smooth_and_near_its_keypoints(rooms: Building) -> None:
     tour = eyes((1, 1), (1, 2), (7, 2), (7, 3.2))
     path = optimise_path(rooms, tour, tour[[0, 1, 3]])

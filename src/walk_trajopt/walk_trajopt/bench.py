@@ -49,7 +49,7 @@ def bench_trajectory(
     config: TrajoptConfig | None = None,
     edits: int = 50,
     plain: bool = True,
-    compared: int = 5,
+    compared: int = 30,
 ) -> dict[str, float]:
     """Returns times in milliseconds, iterations, costs and ratios, by name.
 
@@ -63,7 +63,8 @@ def bench_trajectory(
         config: The problem; its solver is the one that is measured.
         edits: How many random moves of up to 0.1 m the warm edit is measured over; their median counts.
         plain: Measure closest points by trimesh, too; it takes minutes on a large building.
-        compared: How many of the edits the references solve, too; medians of these count.
+        compared: How many of the edits the references solve, too: the medians of the ratios of time, the largest ratio
+            of cost and how many of these are above 1.01 are told.
     """
     config = config or TrajoptConfig()
     optimiser = Optimiser(building, polyline, keypoints, config)
@@ -83,6 +84,7 @@ def bench_trajectory(
     stops = as_polyline_points("keypoints", keypoints, 0)
     times, accepted = _edits(optimiser, stops, edits)
     out.update(edit_p50_ms=float(np.median(times)), edit_p99_ms=float(np.percentile(times, 99)))
+    out["edit_and_timing_p50_ms"] = out["edit_p50_ms"] + out["timing_ms"]
     out["edits_accepted"] = accepted
     ways = {"bvh": building} | (
         {"trimesh": dataclasses.replace(building, geometry=_PlainGeometry(building.geometry))} if plain else {}
@@ -128,7 +130,9 @@ def _against(
         costs.append(cost / max(solution.cost, 1e-9))
     out[f"{name}_edit_ms"] = 1e3 * float(np.median(theirs))
     out[f"{name}_over_edit"] = float(np.median(np.array(theirs) / np.array(ours)))
+    out[f"edit_cost_over_{name}_median"] = float(np.median(costs))
     out[f"edit_cost_over_{name}_max"] = float(np.max(costs))
+    out[f"edits_1_percent_worse_than_{name}"] = float(np.count_nonzero(np.array(costs) > 1.01))
     return out
 
 
