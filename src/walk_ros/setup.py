@@ -13,7 +13,7 @@ setup(
     author="The walkthrough planner's authors",
     license="Apache-2.0",
     packages=find_packages(),
-    package_data={NAME: ["py.typed"]},
+    package_data={NAME: ["py.typed", "fastdds.xml"]},
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{NAME}"]),
         (f"share/{NAME}", ["package.xml"]),

@@ -53,6 +53,13 @@ def test_a_coarser_grid_says_what_size_it_took() -> None:
     assert grid.size > 80_000  # no coarser than the cap asks for
 
 
+def test_a_grid_too_coarse_for_a_door_says_so() -> None:
+    _, notes = fit_grid(np.array([[0.0, 0, 0], [50, 50, 10]]), 0.25, 1000)
+    assert "doors may close" in notes[0]
+    _, notes = fit_grid(np.array([[0.0, 0, 0], [20, 20, 10]]), 0.25, 100_000)
+    assert "doors" not in notes[0]
+
+
 @settings(max_examples=40, deadline=None)
 @given(st.lists(st.floats(-0.5, 6.5), min_size=9, max_size=9))
 def test_obstacle_voxels_are_those_a_triangle_clipped_to_them_is_left_in(corners: list[float]) -> None:

@@ -7,13 +7,16 @@ from __future__ import annotations
 import dataclasses
 
 from walk_building.config import Config, param
+from walk_importance.grid import DOOR_M
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class ImportanceConfig(Config):
     """How the importance map is computed."""
 
-    voxel_size_m: float = param(0.25, "edge of a voxel; above 0.6 m a door would close", unit="m", low=0.05, high=0.6)
+    voxel_size_m: float = param(
+        0.25, "edge of a voxel; above 0.6 m a door would close", unit="m", low=0.05, high=DOOR_M
+    )
     max_voxels: int = param(
         1_500_000, "more voxels than this make the grid coarser, and the map says so", low=1000, high=64_000_000
     )

@@ -9,6 +9,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+DOOR_M = 0.6
+"""Voxels larger than this leave no free one in a narrow door."""
+
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class VoxelGrid:
@@ -60,10 +63,11 @@ def fit_grid(bounds: NDArray[np.float64], voxel_size_m: float, max_voxels: int) 
         size *= max(1.01, (np.prod(_shape(extent, size).astype(float)) / max_voxels) ** (1 / 3) * 0.99)
     nx, ny, nz = (int(n) for n in _shape(extent, size))
     notes: tuple[str, ...] = ()
+    closes = f"; above {DOOR_M:g} m doors may close" if size > DOOR_M else ""
     if size > voxel_size_m:
         notes = (
             f"voxels of {voxel_size_m:g} m would be more than max_voxels = {max_voxels:,}; "
-            f"the grid uses {size:.3f} m, {nx * ny * nz:,} voxels",
+            f"the grid uses {size:.3f} m, {nx * ny * nz:,} voxels{closes}",
         )
     return VoxelGrid(origin=bounds[0] - 0.5 * size, voxel_size_m=float(size), shape=(nx, ny, nz)), notes
 

@@ -10,6 +10,7 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
@@ -58,7 +59,18 @@ def user_arguments(argv: Sequence[str]) -> list[str]:
     return list(remove_ros_args(args=list(argv)))
 
 
+_PROFILES = ("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE")
+"""Both names of the variable that gives Fast DDS a file of profiles; other middleware does not look at them."""
+
+
+def use_profiles() -> None:
+    """Has Fast DDS read the profiles of this package, unless the user has named others."""
+    if not any(os.environ.get(name) for name in _PROFILES):
+        os.environ[_PROFILES[0]] = str(Path(__file__).with_name("fastdds.xml"))
+
+
 def _start_middleware(args: Sequence[str] | None) -> None:
+    use_profiles()
     try:
         rclpy.init(args=list(args) if args is not None else None)
     except RuntimeError as error:  # what every error of the layers below is
