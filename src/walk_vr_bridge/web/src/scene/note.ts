@@ -4,8 +4,8 @@
 import { CanvasTexture, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace, Vector3 } from "three";
 import type { PerspectiveCamera } from "three";
 
-const WIDTH = 512;
-const HEIGHT = 128;
+const WIDTH = 640;
+const HEIGHT = 144;
 
 /** A sentence that stands at a place in the room and faces the viewer: a refusal's reason, a keypoint's name. */
 export class Note {

@@ -102,8 +102,12 @@ export class Stage {
     return found;
   }
 
-  /** Tells the refusal where it happened: at the keypoint, or at the place that was wished. */
+  /** Where the user has moved something last, if both are there. */
+  touched: Overlay | null = null;
+
+  /** Where a refusal is told: where it happened. */
   overlayInView(): Overlay {
+    if (this.mode === "room" && this.touched) return this.touched;
     return this.mode === "inside" ? this.inFull : this.inMiniature;
   }
 

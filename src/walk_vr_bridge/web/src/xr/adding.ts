@@ -53,6 +53,7 @@ export class Adding {
       return;
     }
     const { x, y, z } = this.target;
+    this.stage.touched = this.overlay;
     void this.actions.insert([x, y, z]);
   }
 

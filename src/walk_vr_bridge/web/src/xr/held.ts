@@ -39,7 +39,7 @@ export class Held {
     if (!keypoint) return;
     const { place } = overlay;
     this.id = id;
-    this.overlay = overlay;
+    this.overlay = this.stage.touched = overlay;
     this.near = near;
     this.moved = false;
     this.distance = distance / place.scale;

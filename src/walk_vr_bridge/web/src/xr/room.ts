@@ -133,6 +133,9 @@ export class XrRoom implements HandlerWorld {
     if (!carried) this.buttons();
     this.rider.update(this.inputs, carried, seconds);
     if (!carried) for (let i = 0; i < 2; i++) this.handlers[i].update();
+    if (carried && this.rider.ride.phase === "strayed") {
+      this.tell("You have left the tour. A or X, or Play on the panel, leads you back.", 6);
+    }
     this.clearTheWay(this.rider.carries);
     this.carryMiniature();
     this.showHands();
@@ -148,7 +151,22 @@ export class XrRoom implements HandlerWorld {
     const [x, y, z] = building.start;
     this.rig.headTo(x, z, -y);
     this.bringToHand();
+    this.explain();
     this.settled = true;
+  }
+
+  private explain(): void {
+    const bare = this.inputs.left.bare || this.inputs.right.bare;
+    const hands = "Pinch a keypoint to move it, the model to carry it; pinch at nothing to go there.";
+    const sticks = "The trigger moves keypoints, squeezing carries the model. A or X plays, B or Y undoes, the stick goes.";
+    this.tell(bare ? hands : sticks, 12);
+  }
+
+  /** Says something in front of the user, over what is at hand. */
+  tell(sentence: string, seconds: number): void {
+    this.view.camera.getWorldDirection(AHEAD);
+    AHEAD.y = 0;
+    this.stage.nameNote.show(sentence, AT.copy(this.view.eye).addScaledVector(AHEAD.normalize(), 0.9), seconds);
   }
 
   /** A or X of the stronger hand plays and pauses, B or Y undoes; of the weaker one: everything to hand, redo. */
