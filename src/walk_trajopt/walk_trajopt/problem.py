@@ -90,9 +90,20 @@ class Problem:
         return {name: weight * objective.terms(x) for name, (weight, objective) in self._objectives.items()}
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-        product = banded_product(self.bands, x)
-        value = float(np.vdot(x, product - 2.0 * self._linear)) + self._constant
-        return value, 2.0 * (product - self._linear)
+        value, gradient = _quadratic(self.bands, self._linear, x)
+        return value + self._constant, gradient
+
+
+@numba.njit(cache=True, nogil=True)
+def _quadratic(bands, linear, x):
+    """Returns xᵀ A x − 2 bᵀ x and its gradient 2 (A x − b), for A with lower `bands` and b `linear` (n, 3)."""
+    gradient = banded_product(bands, x)
+    value = 0.0
+    for i in range(len(x)):
+        for c in range(3):
+            value += x[i, c] * (gradient[i, c] - 2.0 * linear[i, c])
+            gradient[i, c] = 2.0 * (gradient[i, c] - linear[i, c])
+    return value, gradient
 
 
 @numba.njit(cache=True, nogil=True)
