@@ -107,6 +107,7 @@ class OptimisedWalk(LivePath):
         if before is None or self._optimiser is None:
             self._solve(revision)
         elif key in self._known:
+            self._known.move_to_end(key)
             if key != before.key:
                 self._optimiser.state = self._known[key]
         else:
