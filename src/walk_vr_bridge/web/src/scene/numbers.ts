@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { BufferAttribute, BufferGeometry, CanvasTexture, DynamicDrawUsage, InstancedBufferAttribute, InstancedMesh } from "three";
-import { Matrix4, ShaderMaterial, SRGBColorSpace } from "three";
+import { BufferAttribute, BufferGeometry, CanvasTexture, DynamicDrawUsage, InstancedBufferAttribute } from "three";
+import { InstancedMesh, Matrix4, ShaderMaterial, SRGBColorSpace } from "three";
 import type { Keypoint } from "../client/state";
 import { MAX_PINS, type Showing } from "./pins";
 

@@ -85,7 +85,13 @@ export class Place {
    * The keypoint that the ray in `ray` points at: within `radiusM` of it, or within the angle. Null: none, or all are farther than
    * `mostM` along it. `rayDistance` is how far along the ray the one found is [m of the map].
    */
-  pointedAt(keypoints: readonly Keypoint[], radiusM: number, angle: number, mostM: number, skip: (keypoint: Keypoint) => boolean): number | null {
+  pointedAt(
+    keypoints: readonly Keypoint[],
+    radiusM: number,
+    angle: number,
+    mostM: number,
+    skip: (keypoint: Keypoint) => boolean,
+  ): number | null {
     const { origin, direction } = this.ray;
     let best = Infinity;
     let found: number | null = null;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { DirectionalLight, Group, HemisphereLight, type OrthographicCamera, PerspectiveCamera, Scene, WebGLRenderer } from "three";
-import { Color, Vector3 } from "three";
+import { Color, DirectionalLight, Group, HemisphereLight, type OrthographicCamera, PerspectiveCamera } from "three";
+import { Scene, Vector3, WebGLRenderer } from "three";
 import { makeGround } from "./ground";
 import { SKY_COLOUR } from "./palette";
 import type { Ray } from "./place";

@@ -49,7 +49,8 @@ export class Adding {
   drop(): void {
     this.ball.visible = false;
     if (!this.overlay) {
-      this.stage.refusalNote.show("There is no floor here. Let go over a floor of the building or the miniature.", this.ball.position, 4);
+      const sentence = "There is no floor here. Let go over a floor of the building or the miniature.";
+      this.stage.refusalNote.show(sentence, this.ball.position, 4);
       return;
     }
     const { x, y, z } = this.target;

@@ -137,7 +137,8 @@ export class Handler {
     hand.pulse(...TICK.bin);
     const at = world.stage.bin.group.position;
     POINT.set(at.x, at.y + 0.09, at.z);
-    world.stage.nameNote.show(hand.bare ? "Deleted. The panel can undo it." : "Deleted. B or Y, or the panel, undoes it.", POINT, 5);
+    const sentence = hand.bare ? "Deleted. The panel can undo it." : "Deleted. B or Y, or the panel, undoes it.";
+    world.stage.nameNote.show(sentence, POINT, 5);
     held.remove();
   }
 

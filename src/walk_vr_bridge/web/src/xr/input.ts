@@ -141,7 +141,11 @@ export class Inputs {
   readonly both: readonly [HandInput, HandInput] = [this.left, this.right];
 
   /** @param onSource called with the groups that follow a source's poses, to hang something visible on. */
-  constructor(xr: WebXRManager, rig: Group, onSource: (hand: HandInput, target: Group, grip: Group, joints: XRHandSpace) => void) {
+  constructor(
+    xr: WebXRManager,
+    rig: Group,
+    onSource: (hand: HandInput, target: Group, grip: Group, joints: XRHandSpace) => void,
+  ) {
     for (const index of [0, 1]) {
       const target = xr.getController(index);
       const grip = xr.getControllerGrip(index);

@@ -51,7 +51,9 @@ export class XrRoom implements HandlerWorld {
     this.knobs = new Knobs(stage);
     this.travel = new Travel(stage, this.rig, this.comfort);
     this.rider = new Rider(stage, store, actions, this.rig, this.travel, this.comfort);
-    this.inputs = new Inputs(view.renderer.xr, view.rig, (hand, target, grip, joints) => this.looks.get(hand)?.wear(target, grip, joints));
+    this.inputs = new Inputs(view.renderer.xr, view.rig, (hand, target, grip, joints) => {
+      this.looks.get(hand)?.wear(target, grip, joints);
+    });
     const [left, right] = this.inputs.both;
     for (const hand of this.inputs.both) this.looks.set(hand, new HandLook(hand));
     this.handlers = [new Handler(left, this), new Handler(right, this)];

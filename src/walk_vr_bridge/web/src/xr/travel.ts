@@ -117,7 +117,8 @@ export class Travel {
     const bvh = this.stage.models?.bvh;
     const { eye } = this.stage.view;
     if (!bvh) return 0;
-    const hit = bvh.cast(eye.x + step.x, -eye.z - step.z, this.rig.group.position.y + CHEST_M, 0, 0, -1, 0, CHEST_M + STEP_M);
+    const chest = this.rig.group.position.y + CHEST_M;
+    const hit = bvh.cast(eye.x + step.x, -eye.z - step.z, chest, 0, 0, -1, 0, CHEST_M + STEP_M);
     if (hit.distance === Infinity) return 0;
     const rise = CHEST_M - hit.distance;
     return Math.abs(rise) <= STEP_M ? rise : 0;

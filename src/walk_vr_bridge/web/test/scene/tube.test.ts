@@ -5,7 +5,8 @@ import { MAX_RINGS, PathTube, SIDES } from "../../src/scene/tube";
 
 function offsets(tube: PathTube, ring: number): number[][] {
   const array = tube.geometry.getAttribute("aOffset").array;
-  return Array.from({ length: SIDES }, (_, side) => Array.from(array.slice((ring * SIDES + side) * 3, (ring * SIDES + side) * 3 + 3)));
+  const at = (side: number): number => (ring * SIDES + side) * 3;
+  return Array.from({ length: SIDES }, (_, side) => Array.from(array.slice(at(side), at(side) + 3)));
 }
 
 const dot = (a: number[], b: number[]): number => a.reduce((sum, value, i) => sum + value * b[i], 0);

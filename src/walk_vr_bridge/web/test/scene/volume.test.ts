@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { Channel, ImportanceState, Storey } from "../../src/client/state";
+import type { Channel, ImportanceState, Ring, Storey } from "../../src/client/state";
 import { choosePoints, MAX_POINTS, rangeIndoors } from "../../src/scene/volume";
 
 const NAMES = ["obstacle", "distance", "visibility", "importance"] as const;
@@ -50,7 +50,9 @@ describe("the points of a map", () => {
 });
 
 describe("the range of the colours", () => {
-  const square: Storey = { name: "", floorZ: 0, outline: [[[2, 2], [18, 2], [18, 18], [2, 18]], [[8, 8], [12, 8], [12, 12], [8, 12]]] };
+  const around: Ring = [[2, 2], [18, 2], [18, 18], [2, 18]];
+  const hole: Ring = [[8, 8], [12, 8], [12, 12], [8, 12]];
+  const square: Storey = { name: "", floorZ: 0, outline: [around, hole] };
 
   it("is that of the walkable floors: neither outdoors nor holes count", () => {
     const map = volume([20, 20, 3], (x, y) => {

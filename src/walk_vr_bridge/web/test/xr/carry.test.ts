@@ -22,7 +22,8 @@ describe("carrying", () => {
   it("is never tipped over, however the fist is tilted", () => {
     const carry = new Carry();
     carry.beginOne(at(0, 1, -0.3), new Matrix4());
-    const tilted = carry.one(new Matrix4().makeRotationFromQuaternion(new Quaternion(0.3, 0.2, -0.4, 0.84).normalize()), new Matrix4());
+    const tilt = new Quaternion(0.3, 0.2, -0.4, 0.84).normalize();
+    const tilted = carry.one(new Matrix4().makeRotationFromQuaternion(tilt), new Matrix4());
     const up = new Vector3(0, 0, 1).transformDirection(tilted);
     expect(up.y).toBeCloseTo(1, 9);
   });
