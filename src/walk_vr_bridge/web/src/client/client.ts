@@ -69,6 +69,11 @@ export class Client implements WireListener {
     this.wire.stop();
   }
 
+  /** Calls a service of the graph by its relative name. @throws WireError. */
+  ask(service: string, args: unknown = {}): Promise<unknown> {
+    return this.wire.call(this.name(service), args);
+  }
+
   /** Publishes an event of a study; false where there is no connection. */
   publishStudyEvent(message: unknown): boolean {
     return this.wire.publish(this.name("study_events"), message);

@@ -3,6 +3,7 @@
 /** The page for mouse and keyboard: everything the headset has, around the same scene. */
 
 import "./desktop.css";
+import type { Camera } from "three";
 import type { Client } from "../client/client";
 import { DomPanel } from "../panel/dom";
 import { PanelModel } from "../panel/model";
@@ -80,6 +81,15 @@ export class Desktop {
     this.followStore(canvas);
     view.onFrame((seconds) => this.frame(seconds, toasts));
     this.show("orbit");
+  }
+
+  get viewName(): ViewpointName {
+    return this.current.name;
+  }
+
+  /** What the picture is drawn through. */
+  get camera(): Camera {
+    return this.current.camera;
   }
 
   /** Looks another way. */

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page by mouse and keyboard, before the real bridge, DDS and planner nodes."""
+
+import math
+
+import pytest
+from page.desk import SIZE, Desk
+
+pytestmark = pytest.mark.ros
+
+
+@pytest.fixture(scope="module")
+def opened(browser, graph):
+    page = browser.open(graph.url, headset=False, width=SIZE[0], height=SIZE[1])
+    yield Desk(page)
+    page.close()
+
+
+@pytest.fixture
+def desk(opened):
+    opened.page.key("Escape")
+    opened.page.key("Escape")
+    opened.look("plan")
+    opened.open("tour")
+    return opened
+
+
+def test_a_keypoint_follows_the_mouse_and_stays_where_it_is_dropped(desk):
+    number = desk.ids()[0]
+    was, path = desk.position(number), desk.revision()
+    desk.drag(number, 12, 9)
+    held = desk.position(number)
+    assert math.dist(was[:2], held[:2]) > 0.05
+    desk.path_follows(path)  # while it is still held
+    desk.drop()
+    assert math.dist(held[:2], desk.position(number)[:2]) < 0.3
+    assert desk.page.js("return desk.state.refusals.length") == 0
+
+
+@pytest.mark.parametrize("view", ["orbit", "walk"])
+def test_it_can_be_moved_in_every_view(desk, view):
+    desk.look(view)
+    number = desk.page.js("""
+      const inPicture = ({ position }) => {
+        const [x, y] = desk.onScreen(position);
+        return x > 220 && x < 680 && y > 120 && y < 580;
+      };
+      const ahead = ({ position }) => {
+        const at = walk.view.eye.clone();
+        walk.stage.overlayInView().place.shown(position, at);
+        return at.project(walk.desktop.camera).z < 1;
+      };
+      return desk.state.keypoints.filter(ahead).find(inPicture)?.id ?? null;
+    """)
+    if number is None:
+        pytest.skip("no keypoint is in the picture from where one begins")
+    was = desk.position(number)
+    desk.drag(number, 10, 4)
+    assert math.dist(was[:2], desk.position(number)[:2]) > 0.01
+    desk.page.key("Escape")  # put back
+    desk.page.mouse(["up"])
+    desk.quiet()
+    assert math.dist(was, desk.position(number)) < 1e-3
+
+
+def test_undo_and_redo_keys_take_a_move_back_and_do_it_again(desk):
+    number = desk.ids()[0]
+    was = desk.position(number)
+    desk.drag(number, -10, 8)
+    desk.drop()
+    moved = desk.position(number)
+    desk.page.key("Control+z")
+    desk.page.until(f"Math.hypot(...desk.keypoint({number}).position.map((x, i) => x - {was}[i])) < 1e-3", "undo")
+    desk.page.key("Control+y")
+    desk.page.until(f"Math.hypot(...desk.keypoint({number}).position.map((x, i) => x - {moved}[i])) < 1e-3", "redo")
+
+
+def test_what_is_refused_goes_back_and_is_told_where_it_happened(desk):
+    number = desk.ids()[0]
+    was = desk.position(number)
+    place = desk.page.js("""
+      const { min } = desk.state.building;
+      return desk.onScreen([min[0] - 3, min[1] - 1, 1.6]);
+    """)
+    x, y = desk.on_screen(number)
+    desk.page.mouse(["move", x, y], ["down"], ["move", x - 20, y], ["move", *place])
+    wished = desk.position(number)
+    desk.drop()
+    assert math.dist(was, desk.position(number)) < 1e-3
+    reason = desk.page.js("return desk.state.refusals.at(-1).reason")
+    toast = desk.page.js("""
+      const toast = [...document.querySelectorAll(".toast")].at(-1);
+      const box = toast.getBoundingClientRect();
+      const live = Boolean(toast.closest("[role=alert]"));
+      return { text: toast.textContent, x: box.x + box.width / 2, bottom: box.bottom, live };
+    """)
+    assert reason and reason.lower()[:20] in toast["text"].lower()
+    assert toast["live"]
+    at = desk.page.js(f"return desk.onScreen({wished})")
+    assert abs(toast["bottom"] - at[1]) < 40
+    desk.click(".toast button")
+    desk.page.until("document.querySelectorAll('.toast').length === 0", "the toast's end")
+
+
+def test_a_keypoint_is_added_by_dragging_it_out_of_the_panel_and_deleted_by_a_key(desk):
+    before = desk.ids()
+    x, y = desk.page.js("return desk.middle('.drag-source')")
+    first = desk.position(before[0])
+    to = desk.page.js(f"return desk.onScreen([{first[0]} + 0.6, {first[1]} + 0.4, {first[2]}])")
+    desk.page.mouse(["move", x, y], ["down"], ["move", x - 30, y + 10], ["move", *to])
+    assert desk.page.js("return document.querySelectorAll('.ghost.over').length") == 1
+    desk.page.mouse(["up"])
+    desk.page.until(f"desk.state.keypoints.length === {len(before) + 1}", "the new keypoint")
+    (added,) = set(desk.ids()) - set(before)
+    assert math.dist(desk.position(added)[:2], [first[0] + 0.6, first[1] + 0.4]) < 0.4
+    desk.page.until(f"desk.state.selection.keypoint === {added}", "that it is chosen")
+    desk.page.js("walk.view.renderer.domElement.focus()")
+    desk.page.key("Delete")
+    desk.page.until(f"desk.state.keypoints.length === {len(before)}", "the deletion")
+    assert set(desk.ids()) == set(before)
+
+
+def test_adding_by_a_key_and_a_click(desk):
+    before = desk.ids()
+    desk.page.js("walk.view.renderer.domElement.focus()")
+    desk.page.key("n")
+    x, y = desk.on_screen(before[0])
+    desk.page.mouse(["click", x + 18, y + 18])
+    desk.page.until(f"desk.state.keypoints.length === {len(before) + 1}", "the new keypoint")
+    desk.page.key("Control+z")
+    desk.page.until(f"desk.state.keypoints.length === {len(before)}", "its undo")
+
+
+def test_walking_by_keys_stays_on_the_floor_and_out_of_the_walls(desk):
+    desk.look("walk")
+    eye = "walk.view.camera.getWorldPosition(walk.view.eye.clone()).toArray()"
+    begin = desk.page.js(f"return {eye}")
+    desk.page.js("""
+      window.dispatchEvent(new KeyboardEvent("keydown", { code: "KeyW", key: "w" }));
+      for (let i = 0; i < 300; i++) { await new Promise(requestAnimationFrame); }
+      window.dispatchEvent(new KeyboardEvent("keyup", { code: "KeyW", key: "w" }));
+    """)
+    end = desk.page.js(f"return {eye}")
+    assert math.dist(begin, end) > 0.2
+    low, high = desk.page.js("return [desk.state.building.min, desk.state.building.max]")
+    assert low[0] < end[0] < high[0] and low[1] < -end[2] < high[1]
+    assert end[1] == pytest.approx(begin[1], abs=0.5)
+
+
+def test_the_tour_plays_by_the_space_key_and_takes_one_along(desk):
+    desk.open("walk")
+    desk.click('[data-id="place"] [data-value="ride"]')
+    desk.page.js("walk.view.renderer.domElement.focus()")
+    desk.page.key(" ")
+    desk.page.until("desk.state.playback.playing && walk.desktop.viewName === 'walk'", "the ride")
+    begin = desk.page.js("return walk.view.eye.toArray()")
+    desk.page.until(f"walk.view.eye.distanceTo({{x: {begin[0]}, y: {begin[1]}, z: {begin[2]}}}) > 0.3", "movement")
+    desk.page.key(" ")
+    desk.page.until("!desk.state.playback.playing", "the pause")
+    desk.click('[data-id="place"] [data-value="miniature"]')
+
+
+def test_every_control_has_a_name_and_can_be_reached_by_keys(desk):
+    for tab in ("tour", "view", "tune", "walk", "study"):
+        desk.open(tab)
+        unnamed = desk.page.js("""
+          const named = (one) => (one.getAttribute("aria-label") || one.labels?.[0]?.textContent || one.textContent).trim();
+          const controls = [...document.querySelectorAll(".desktop button, .desktop input")];
+          return controls.filter((one) => one.offsetParent && !named(one)).map((one) => one.outerHTML);
+        """)
+        assert unnamed == []
+    assert desk.page.js("return document.querySelector('#view').tabIndex") == 0
+
+
+def test_the_page_says_nothing_wrong_on_its_console(desk):
+    assert desk.page.said() == []
