@@ -165,7 +165,8 @@ def test_every_control_has_a_name_and_can_be_reached_by_keys(desk):
     for tab in ("tour", "view", "tune", "walk", "study"):
         desk.open(tab)
         unnamed = desk.page.js("""
-          const named = (one) => (one.getAttribute("aria-label") || one.labels?.[0]?.textContent || one.textContent).trim();
+          const label = (one) => one.getAttribute("aria-label") || one.labels?.[0]?.textContent;
+          const named = (one) => (label(one) || one.textContent).trim();
           const controls = [...document.querySelectorAll(".desktop button, .desktop input")];
           return controls.filter((one) => one.offsetParent && !named(one)).map((one) => one.outerHTML);
         """)

@@ -161,7 +161,7 @@ def test_play_pause_seek_speed_and_stop(desk):
 
 def test_the_headsets_picture_is_drawn_only_when_something_changes(desk):
     before, still, changed = desk.page.js("""
-      const { panel } = walk;
+      const { panel } = walk.room;
       panel.group.visible = true;
       const frames = async (count) => {
         for (let i = 0; i < count; i++) {
