@@ -135,16 +135,36 @@ export class Bvh {
       this.links[2 * node + 1] = first - end;
       return;
     }
-    const axis = this.longest(node);
-    const middle = (key: number): number => {
-      const at = 9 * key + axis;
-      return this.corners[at] + this.corners[at + 3] + this.corners[at + 6];
-    };
-    this.order.subarray(first, end).sort((a, b) => middle(a) - middle(b));
     const half = (first + end) >> 1;
+    this.halve(first, end - 1, half, this.longest(node));
     this.split(first, half);
     this.links[2 * node] = this.nodes;
     this.split(half, end);
+  }
+
+  /** Puts the triangles with the lower middles before place `half`, the others behind (quickselect). */
+  private halve(low: number, high: number, half: number, axis: number): void {
+    const { order } = this;
+    while (low < high) {
+      const pivot = this.middle(order[(low + high) >> 1], axis);
+      let [i, j] = [low, high];
+      while (i <= j) {
+        while (this.middle(order[i], axis) < pivot) i++;
+        while (this.middle(order[j], axis) > pivot) j--;
+        if (i > j) break;
+        const swapped = order[i];
+        order[i++] = order[j];
+        order[j--] = swapped;
+      }
+      if (half <= j) high = j;
+      else if (half >= i) low = i;
+      else return;
+    }
+  }
+
+  private middle(triangle: number, axis: number): number {
+    const at = 9 * triangle + axis;
+    return this.corners[at] + this.corners[at + 3] + this.corners[at + 6];
   }
 
   private longest(node: number): number {

@@ -73,11 +73,16 @@ export function rangeIndoors(map: ImportanceState, channel: ChannelName, storeys
   for (const { floorZ, outline } of storeys) {
     const layer = Math.floor((floorZ + CUT_OVER_FLOOR_M - map.origin[2]) / map.voxelM);
     if (layer < 0 || layer >= nz) continue;
-    for (let i = 0; i < nx * ny; i++) {
-      const x = map.origin[0] + ((i % nx) + 0.5) * map.voxelM;
-      const y = map.origin[1] + (Math.floor(i / nx) + 0.5) * map.voxelM;
-      const at = 4 * (layer * nx * ny + i);
-      if (map.data[at + full] <= 127 && inside(outline, x, y)) values.push(map.data[at + shown]);
+    for (let row = 0; row < ny; row++) {
+      const ends = crossings(outline, map.origin[1] + (row + 0.5) * map.voxelM);
+      for (let k = 0; k + 1 < ends.length; k += 2) {
+        const first = Math.max(0, Math.ceil((ends[k] - map.origin[0]) / map.voxelM - 0.5));
+        const last = Math.min(nx - 1, Math.floor((ends[k + 1] - map.origin[0]) / map.voxelM - 0.5));
+        for (let column = first; column <= last; column++) {
+          const at = 4 * (layer * nx * ny + row * nx + column);
+          if (map.data[at + full] <= 127) values.push(map.data[at + shown]);
+        }
+      }
     }
   }
   if (channel === "obstacle" || values.length < ENOUGH) return [0, 1];
@@ -86,16 +91,16 @@ export function rangeIndoors(map: ImportanceState, channel: ChannelName, storeys
   return [percentile(0.02), percentile(0.98)];
 }
 
-/** Even-odd rule over all rings. */
-function inside(rings: readonly Ring[], x: number, y: number): boolean {
-  let odd = false;
+/** Where a line along x meets the rings, rising: by the even-odd rule one is inside from each first to each second of them. */
+function crossings(rings: readonly Ring[], y: number): number[] {
+  const found: number[] = [];
   for (const ring of rings) {
     for (let i = 0, j = ring.length - 1; i < ring.length; j = i++) {
       const [[ax, ay], [bx, by]] = [ring[i], ring[j]];
-      if (ay > y !== by > y && x < ax + ((y - ay) / (by - ay)) * (bx - ax)) odd = !odd;
+      if (ay > y !== by > y) found.push(ax + ((y - ay) / (by - ay)) * (bx - ax));
     }
   }
-  return odd;
+  return found.sort((a, b) => a - b);
 }
 
 /** A number from 0 up to 1 that looks random and is always the same for an index. */
