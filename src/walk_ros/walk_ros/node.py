@@ -7,7 +7,6 @@ from __future__ import annotations
 import gc
 import importlib
 import logging
-import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -34,9 +33,6 @@ from walk_ros.worker import Superseded, Worker
 if TYPE_CHECKING:
     from walk_building.building import Building
 
-BACKGROUND = 5
-"""Niceness of a node whose answers nobody waits for within a frame: on few cores the others go first."""
-
 STOP_S = 3.0
 """How long a worker may take to end: the longest stretch of a stage between two progress reports, with room."""
 
@@ -46,12 +42,7 @@ class WalkNode(Node):
 
     Subclasses say in `work` what is to be done about the newest input and in `fail` what is published when it
     cannot be done. Both run in the worker's thread.
-
-    Attributes:
-        niceness: By how much the process steps back behind others.
     """
-
-    niceness = BACKGROUND
 
     def __init__(self, name: str, configs: Mapping[str, type[Config]]) -> None:
         """Declares the parameters and starts the diagnostics; the worker starts with `start`.
@@ -61,7 +52,6 @@ class WalkNode(Node):
             configs: Config classes by parameter group, beside `load` and `walker`.
         """
         super().__init__(name, namespace=NAMESPACE)
-        os.nice(max(self.niceness - os.nice(0), 0))
         forward_logging(self.get_logger())
         self.diagnostics = Diagnostics(self.get_fully_qualified_name().strip("/"))
         self.worker = Worker(f"{name} worker", self._step, self.report)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import dataclasses
 
 from walk_sequencer.changes import EDITS, Entry, changed
+from walk_sequencer.kept import Kept
 from walk_sequencer.keypoints import Keypoints
 
 UNDO: Entry = {"kind": "undo"}
@@ -16,7 +17,8 @@ REDO: Entry = {"kind": "redo"}
 class History:
     """The present keypoints, those before each edit, and those that were taken back.
 
-    They are the values themselves, so undo restores them bit for bit; values share what an edit leaves alone.
+    Undo restores the very values, bit for bit; each is kept as what its neighbour lacks, so that hours of editing need
+    little memory. Orders that the planner finds in between change no array, so the neighbour stays one.
 
     Attributes:
         present: The keypoints now.
@@ -24,8 +26,8 @@ class History:
 
     def __init__(self) -> None:
         self.present = Keypoints()
-        self._past: list[Keypoints] = []
-        self._future: list[Keypoints] = []
+        self._past: list[Kept] = []
+        self._future: list[Kept] = []
 
     @property
     def can_undo(self) -> bool:
@@ -48,7 +50,8 @@ class History:
             if not source:
                 raise ValueError(f"nothing to {entry['kind']}")
             # Only the identities go on: one that was used and taken back is never another keypoint's.
-            return dataclasses.replace(source[-1], next_id=max(source[-1].next_id, self.present.next_id))
+            value = source[-1].restored(self.present)
+            return dataclasses.replace(value, next_id=max(value.next_id, self.present.next_id))
         return changed(self.present, entry)
 
     def apply(self, entry: Entry) -> Keypoints:
@@ -56,13 +59,13 @@ class History:
         new = self.after(entry)
         kind = entry["kind"]
         if kind == "undo":
-            self._future.append(self.present)
+            self._future.append(Kept.of(self.present, new))
             self._past.pop()
         elif kind == "redo":
-            self._past.append(self.present)
+            self._past.append(Kept.of(self.present, new))
             self._future.pop()
         elif kind in EDITS:
-            self._past.append(self.present)
+            self._past.append(Kept.of(self.present, new))
             self._future.clear()
         elif kind == "suggested":
             self._past.clear()

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_ROWS = ("positions", "quat_xyzw", "dwell_s", "look_at")
+ROWS = ("positions", "quat_xyzw", "dwell_s", "look_at")
+"""The arrays that have a row for each keypoint."""
 
 
 def rows(values: Any, width: int) -> NDArray[np.float64]:
@@ -94,7 +95,7 @@ class Keypoints:
         )
 
     def _taken(self, ids: tuple[int, ...], taken: list[int]) -> Keypoints:
-        arrays: dict[str, Any] = {name: _read_only(getattr(self, name)[taken]) for name in _ROWS}
+        arrays: dict[str, Any] = {name: _read_only(getattr(self, name)[taken]) for name in ROWS}
         return dataclasses.replace(self, ids=ids, **arrays)
 
 

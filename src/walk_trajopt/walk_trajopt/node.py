@@ -62,8 +62,6 @@ class Plan:
 class TrajoptNode(WalkNode):
     """Publishes the optimised path and the trajectory."""
 
-    niceness = 0
-
     def __init__(self) -> None:
         super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
         self._newest: dict[str, Poses | LabelledKeypoints | TimedPath] = {}

@@ -8,7 +8,7 @@ import dataclasses
 import os
 import tempfile
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,7 @@ class Options:
     points: int = 100  # that are optimised
     rate_hz: float = 90.0  # edits of each hand a second
     hands: int = 1  # editors that drag at once, each a keypoint of its own
-    stroke_s: float = 5.0  # from grab to release
+    stroke_s: float = 3.0  # from grab to release
     speed_mps: float = 0.6  # of a hand, on average
     seed: int = 1
 
@@ -121,6 +121,10 @@ def _settle(hand: Hand, processes: Processes) -> None:
     hand.wait(still, "a graph at rest", _START_S, check)
 
 
+def _number(values: Mapping[str, str], key: str) -> float | None:
+    return float(values[key]) if key in values else None
+
+
 def _check(processes: Processes) -> None:
     ended = processes.ended()
     if ended:
@@ -136,6 +140,8 @@ class _Bench:
         self._hand = hand
         self._processes = processes
         self._dice = np.random.default_rng(options.seed)
+        # Apart, or how many paths come in would decide about the next move.
+        self._draw = np.random.default_rng(options.seed)
         self._turn = 0
         self._seen = Seen()
         self.dragged_s = 0.0
@@ -186,7 +192,7 @@ class _Bench:
             reason = flaw(data, keypoints, held)
             if reason:
                 seen.flaws.append(reason)
-            if self._dice.random() < 0.05:
+            if self._draw.random() < 0.05:
                 seen.samples.append(data)
         if self._hand.raw:
             seen.samples.append(self._hand.raw[max(self._hand.raw)])
@@ -244,6 +250,7 @@ class _Bench:
             "rate_hz": options.rate_hz,
             "dragged_s": round(self.dragged_s, 2),
             "edit_to_path_ms": ours,
+            "of_which_trajopt_ms": {key: _number(hand.state("trajopt"), f"latency_{key}_ms") for key in ("p50", "p99")},
             "null_ms": null,
             "ratio": ratio,
             "edits": {
