@@ -7,9 +7,12 @@ import { change } from "./edits";
 import type { Outcome } from "./outbox";
 import { showValue, writeParameter } from "./parameters";
 import { playbackTimeS } from "./playback";
-import type { Parameter, ParameterValue, Quat, SelectionState, SettingsState, Vec3 } from "./state";
+import type { BuildingState, Parameter, ParameterValue, Quat, SelectionState, SettingsState, Vec3 } from "./state";
 import type { Store } from "./store";
 import type { Wire } from "./wire";
+
+/** Floors differ by this much within a storey. */
+const LEVEL_M = 0.3;
 
 export const SEEK_TYPE = "std_msgs/Float64";
 
@@ -42,6 +45,11 @@ export class Actions {
 
   holds(id: number): boolean {
     return this.desk.holds(id);
+  }
+
+  /** Puts a keypoint where the user dropped one: there, or at the best place around, as the settings say. */
+  add(position: Vec3): Promise<Outcome> {
+    return this.store.state.settings.addNear ? this.insertNear(position) : this.insert(position);
   }
 
   /** Puts a keypoint here: behind `after`, or where the tour grows least. */
@@ -148,6 +156,14 @@ export class Actions {
     if (this.store.state.selection.keypoint !== id) this.store.patch("selection", { keypoint: id });
   }
 
+  /** Chooses a keypoint and, where one storey is shown, shows its own. */
+  reveal(id: number): void {
+    const { building, keypoints, selection } = this.store.state;
+    const position = keypoints.find((keypoint) => keypoint.id === id)?.position;
+    if (building && position && selection.storey >= 0) this.showStorey(storeyOf(building, position[2]));
+    this.select(id);
+  }
+
   showStorey(storey: number): void {
     this.store.patch("selection", { storey });
   }
@@ -183,6 +199,12 @@ export class Actions {
     }
     return false;
   }
+}
+
+/** Index of the storey that a walker with the eye at this height is on. */
+export function storeyOf({ storeys, walker }: BuildingState, eyeZ: number): number {
+  const above = storeys.findIndex(({ floorZ }) => floorZ > eyeZ - walker.eyeHeightM + LEVEL_M);
+  return Math.max(0, above < 0 ? storeys.length - 1 : above - 1);
 }
 
 interface Trigger {

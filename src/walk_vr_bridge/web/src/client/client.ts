@@ -92,13 +92,19 @@ export class Client implements WireListener {
 
   closed(code: number, reason: string, retryMs: number | null): void {
     if (retryMs === null) {
-      // Let in no more: the cookie may have run out, then a code helps.
+      void this.askForCode();
       this.store.patch("connection", { phase: "refused", message: reason || "The bridge ended the connection.", retryAtMs: 0 });
       return;
     }
     const why = code === 1013 ? "The bridge is full." : "The connection is lost.";
     const message = `${why} Nothing is lost: what you do is sent when it is back.`;
     this.store.patch("connection", { phase: "waiting", message, retryAtMs: this.clock.now() + retryMs });
+  }
+
+  /** Let in no more: the cookie may have run out, then a code helps. */
+  private async askForCode(): Promise<void> {
+    const admission = await askAdmission().catch(() => null);
+    if (admission?.role === null) await this.start();
   }
 
   complained(sentence: string): void {

@@ -186,6 +186,8 @@ export interface SettingsState {
   readonly snapTurn: boolean;
   readonly teleport: boolean;
   readonly hand: Hand;
+  /** A new keypoint is put at the best place around where it is dropped. */
+  readonly addNear: boolean;
 }
 
 export interface SelectionState {

@@ -16,6 +16,7 @@ export const DEFAULT_SETTINGS: SettingsState = {
   snapTurn: true,
   teleport: true,
   hand: "right",
+  addNear: false,
 };
 
 const NO_SELECTION: SelectionState = { keypoint: null, storey: -1, tool: "edit" };

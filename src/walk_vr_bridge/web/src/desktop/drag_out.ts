@@ -40,7 +40,7 @@ export function dragOut(
       end();
       if (!begun || !overCanvas(canvas, event)) return;
       const at = ground.eyeUnder(event.clientX, event.clientY);
-      if (at) void client.actions.insert(at);
+      if (at) void client.actions.add(at);
     };
     // A touch that scrolls instead would take the pointer away.
     (start.target as Element | null)?.releasePointerCapture?.(start.pointerId);

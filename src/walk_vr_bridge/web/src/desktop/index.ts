@@ -39,6 +39,7 @@ export class Desktop {
   private readonly domPanel: DomPanel;
   private readonly page = element("div", "desktop");
   private presenting = false;
+  private riding = false;
 
   constructor(
     private readonly view: View,
@@ -121,12 +122,14 @@ export class Desktop {
     store.subscribe("playback", () => this.ride());
   }
 
-  /** Who walks along is inside; who no longer does goes back to look from outside. */
+  /** Who walks along is inside. */
   private ride(): void {
     if (this.presenting) return;
     const { playback, settings } = this.client.store.state;
     const riding = playback.playing && settings.playbackPlace === "ride";
-    if (riding && this.current.name !== "walk") this.show("walk");
+    // Only as it begins: who looks another way meanwhile is left alone.
+    if (riding && !this.riding) this.show("walk");
+    this.riding = riding;
   }
 
   /** Opens a storey where none is open: on a roof nothing can be added. */

@@ -136,7 +136,7 @@ export class Pointer {
     const { tool, keypoint: chosen } = store.state.selection;
     if (tool === "add") {
       const at = this.ground.eyeUnder(event.clientX, event.clientY);
-      if (at) void actions.insert(at);
+      if (at) void actions.add(at);
       actions.useTool("edit");
     } else if (tool === "lookAt" && chosen !== null) {
       const at = this.ground.surfaceUnder(event.clientX, event.clientY);

@@ -32,6 +32,13 @@ function addWidgets(state: State, actions: Actions): Widget[] {
       hint: adding ? "Esc or click here to stop" : "Drag it onto a floor, or press and click there",
       run: () => actions.useTool(adding ? "edit" : "add"),
     },
+    {
+      kind: "toggle",
+      id: "add-near",
+      label: "Find the best place around",
+      on: state.settings.addNear,
+      set: (on) => actions.set({ addNear: on }),
+    },
   ];
 }
 
@@ -107,7 +114,7 @@ function itemOf(keypoint: Keypoint, index: number, chosen: boolean, actions: Act
     detail: unreachable || marks.filter(Boolean).join(" · "),
     tone: unreachable ? "warn" : start ? "start" : end ? "end" : "plain",
     chosen,
-    choose: () => actions.select(chosen ? null : id),
+    choose: () => (chosen ? actions.select(null) : actions.reveal(id)),
   };
 }
 

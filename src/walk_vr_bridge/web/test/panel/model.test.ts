@@ -38,7 +38,7 @@ describe("the panel's model", () => {
       for (const widget of widgets(model.sections())) {
         if (widget.kind === "button" && !widget.disabled) widget.run();
         if ((widget.kind === "slider" || widget.kind === "toggle") && !("disabled" in widget && widget.disabled)) {
-          expect(["vignette", "fade", "snapTurn", "teleport"]).toContain(widget.id);
+          expect(["add-near", "vignette", "fade", "snapTurn", "teleport"]).toContain(widget.id);
         }
       }
     }
