@@ -14,19 +14,16 @@ from walk_building.building import Building
 from walk_building.errors import ParameterError
 from walk_trajopt.check import PathCheck
 from walk_trajopt.config import TrajoptConfig
-from walk_trajopt.curve import refine
 from walk_trajopt.objectives import Setting
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.polyline import Polyline, as_polyline_points, tour_of
 from walk_trajopt.problem import Problem
-from walk_trajopt.repair import Mended, Way, colliding, repair
+from walk_trajopt.repair import Mended, colliding, repair
 from walk_trajopt.resample import keypoint_arcs, point_count
 from walk_trajopt.result import path_of
 from walk_trajopt.revise import ends_at_keypoints, revised, share_of_new
 from walk_trajopt.solvers import SOLVERS, Solution
-from walk_trajopt.state import State, bent, initial_state
-
-_BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
+from walk_trajopt.state import State, around, bent, drawn, initial_state
 
 _ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
 
@@ -198,7 +195,7 @@ class Optimiser:
     def _solve(self, state: State, first: int, last: int, config: TrajoptConfig | None = None) -> Solution:
         """Optimises the points between `first` and `last`, these two and all beyond them fixed."""
         config = config or self.config
-        low, high = _around(state, first, last)
+        low, high = around(state, first, last)
         fixed = np.ones(high - low, bool)
         fixed[first + 1 - low : last - low] = False
         pins = state.keypoint_index[state.pinned] - low
@@ -221,7 +218,7 @@ class Optimiser:
 
     def _spliced_terms(self, state: State, first: int, last: int) -> dict[str, NDArray[np.float64]]:
         """Returns the terms of a state that differs from the present one between two points: beside, they stay."""
-        low, high = _around(state, first, last)
+        low, high = around(state, first, last)
         if self._solved is not None and self._solved[0] is state.x:
             problem = self._solved[1]
         else:
@@ -258,27 +255,18 @@ class Optimiser:
         # A curve reaches one span beyond a moved point.
         begin, end = max(first - 1, 0), min(last + 1, len(state.x) - 1)
         window = float(state.arc_m[begin]), float(state.arc_m[end])
-        state = self._drawn(state, begin, end)
+        state = drawn(state, begin, end, self.config.chord_error_m)
         touching, eased = colliding(state.way, self._check, window), []
         for stretch in touching:
             state = self._eased(state, stretch, (first, last))
             eased.append(Mended(start_m=stretch[0], end_m=stretch[1], free=True, how=_EASED))
         if eased:
-            state = self._drawn(state, begin, end)
+            state = drawn(state, begin, end, self.config.chord_error_m)
             touching = colliding(state.way, self._check, window)
         way, mended = repair(state.way, state.tour, state.keypoint_m, state.pins(), self._check, touching)
         eased = [e for e in eased if not any(m.start_m < e.end_m and m.end_m > e.start_m for m in mended)]
         kept = [m for m in state.mended if m.end_m < window[0] or m.start_m > window[1]]
         return dataclasses.replace(state, way=way, mended=tuple(sorted(kept + eased + mended, key=lambda m: m.start_m)))
-
-    def _drawn(self, state: State, begin: int, end: int) -> State:
-        """Returns the state with its way drawn anew between two points, without the check."""
-        # Two more points on both sides give the drawn piece the tangents that it has within the whole.
-        a, b = max(begin - 2, 0), min(end + 3, len(state.x))
-        curve, place = refine(state.x[a:b], self.config.chord_error_m)
-        drawn = Way(points=curve, tour_m=np.interp(place, np.arange(b - a), state.arc_m[a:b]))
-        piece = drawn.between(float(state.arc_m[begin]), float(state.arc_m[end]))
-        return dataclasses.replace(state, way=state.way.replaced(piece))
 
     def _eased(self, state: State, stretch_m: tuple[float, float], limits: tuple[int, int]) -> State:
         """Optimises a stretch that collides again: from the planned tour, with more weight on the clearance."""
@@ -290,8 +278,3 @@ class Optimiser:
         x[first + 1 : last] = state.start[first + 1 : last]
         solution = self._solve(dataclasses.replace(state, x=x), first, last, self._stiffer())
         return dataclasses.replace(state, x=solution.x)
-
-
-def _around(state: State, first: int, last: int) -> tuple[int, int]:
-    """Returns the range of points that terms of the cost between `first` and `last` refer to."""
-    return max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))

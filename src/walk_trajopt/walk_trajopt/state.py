@@ -9,10 +9,12 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_trajopt.curve import refine
 from walk_trajopt.polyline import Polyline, interpolate
 from walk_trajopt.repair import Mended, Way
 from walk_trajopt.resample import resample
 
+_BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
 _UNEVEN = 1.5  # a leg whose points are so much farther apart, or nearer, than the mean gets another number of them
 _VERTEX_M = 0.25  # between the vertices of a bent leg, so that each can find its own floor
 
@@ -91,6 +93,21 @@ def initial_state(
         mended=(),
         terms={},
     )
+
+
+def around(state: State, first: int, last: int) -> tuple[int, int]:
+    """Returns the range of points that terms of the cost between `first` and `last` refer to."""
+    return max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
+
+
+def drawn(state: State, begin: int, end: int, chord_error_m: float) -> State:
+    """Returns the state with its way drawn anew between two points, without the check."""
+    # Two more points on both sides give the drawn piece the tangents that it has within the whole.
+    a, b = max(begin - 2, 0), min(end + 3, len(state.x))
+    curve, place = refine(state.x[a:b], chord_error_m)
+    fresh = Way(points=curve, tour_m=np.interp(place, np.arange(b - a), state.arc_m[a:b]))
+    piece = fresh.between(float(state.arc_m[begin]), float(state.arc_m[end]))
+    return dataclasses.replace(state, way=state.way.replaced(piece))
 
 
 def bent(
