@@ -4,7 +4,11 @@
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.serialization import serialize_message
 
+from walk_bag.storage import BagWriter, read_bag
+from walk_bag.topics import BagTopic
+from walk_ros.raw import from_bytes
 from walk_vr_bridge.study import TLX_PAIRS, TLX_SCALES, StudyError, events_of, scores_from_events, sus_score, tlx_scores
 
 BROOKES_EXAMPLE = (5, 4, 2, 1, 2, 3, 2, 4, 5, 2)
@@ -74,3 +78,16 @@ def test_events_are_read_from_messages():
     values = [KeyValue(key="participant", value="4")]
     message = DiagnosticArray(status=[DiagnosticStatus(name="participant", values=values)])
     assert list(events_of([message])) == [("participant", {"participant": "4"})]
+
+
+def test_a_bag_gives_the_scores_of_what_was_recorded_in_it(tmp_path):
+    bag = tmp_path / "study.mcap"
+    kind = "diagnostic_msgs/msg/DiagnosticArray"
+    topic = BagTopic(name="/walk/study_events", type_name=kind, latched=False, reliable=True, depth=10)
+    with BagWriter(bag) as writer:
+        for stamp, (name, values) in enumerate(events()):
+            pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
+            message = DiagnosticArray(status=[DiagnosticStatus(name=name, values=pairs)])
+            writer.write(topic, stamp, serialize_message(message))
+    messages = (from_bytes(m.data, m.topic.type_name) for m in read_bag(bag, {"/walk/study_events"}))
+    assert scores_from_events(events_of(messages)) == scores_from_events(events())
