@@ -52,9 +52,9 @@ class Client:
         Raises:
             ProtocolError: There are too many.
         """
+        if sum(len(listening) for listening in self.listening.values()) >= MAX_SUBSCRIPTIONS:
+            raise ProtocolError(f"no more than {MAX_SUBSCRIPTIONS} subscriptions are possible")
         if topic not in self.listening:
-            if len(self.listening) >= MAX_SUBSCRIPTIONS:
-                raise ProtocolError(f"no more than {MAX_SUBSCRIPTIONS} subscriptions are possible")
             self.listening[topic] = Listening(topic, self.deliver)
         depth = max(wish.depth, EVENTS.get(short, 1))
         self.listening[topic].add(

@@ -45,6 +45,9 @@ class Listening:
         self._held: Message | None = None
         self._timer: asyncio.TimerHandle | None = None
 
+    def __len__(self) -> int:
+        return len(self._wishes)
+
     def add(self, identity: str, wish: Wish) -> None:
         """Adds a subscription, or replaces the one of this id."""
         self._wishes[identity] = wish
