@@ -113,7 +113,9 @@ class OptimisedWalk(LivePath):
         else:
             came_from = np.array([before.ids.index(i) if i in before.ids else -1 for i in revision.ids])
             known = self._optimiser.revise(revision.polyline, revision.keypoints, came_from, revision.pinned)
-            if not known:
+            # A leg that was bent by hand may be kept, and its planned way is bent too: where a new leg beside it is to
+            # be mended by it in vain, the sequencer's own way is the one that passes.
+            if not known or self._optimiser.path().colliding:
                 self._solve(revision)
         self._revision = revision
         if key not in self._known:
