@@ -12,6 +12,8 @@ import click
 from walk_bringup.bootstrap.commands import COMMANDS
 
 _PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
+_OTHERS = {"live": "walk_ros.live_bench", "bridge": "walk_vr_bridge.bench"}
+"""Measurements that start nodes, by the word that chooses them."""
 
 
 @click.command(short_help=COMMANDS["bench"], context_settings=_PASS_ON, add_help_option=False)
@@ -20,7 +22,6 @@ def bench(arguments: tuple[str, ...]) -> int:
     """Measure every stage, side by side with the plain way; walk_plan.bench explains its options itself."""
     # A fresh process, so that the first stage is not charged with what this one has loaded.
     sys.stdout.flush()
-    module, rest = (
-        ("walk_ros.live_bench", arguments[1:]) if arguments[:1] == ("live",) else ("walk_plan.bench", arguments)
-    )
-    return os.execv(sys.executable, [sys.executable, "-m", module, *rest])
+    module = _OTHERS.get(arguments[0], "") if arguments else ""
+    rest = arguments[1:] if module else arguments
+    return os.execv(sys.executable, [sys.executable, "-m", module or "walk_plan.bench", *rest])
