@@ -93,7 +93,11 @@ export class Client implements WireListener {
   closed(code: number, reason: string, retryMs: number | null): void {
     if (retryMs === null) {
       void this.askForCode();
-      this.store.patch("connection", { phase: "refused", message: reason || "The bridge ended the connection.", retryAtMs: 0 });
+      this.store.patch("connection", {
+        phase: "refused",
+        message: reason || "The bridge ended the connection.",
+        retryAtMs: 0,
+      });
       return;
     }
     const why = code === 1013 ? "The bridge is full." : "The connection is lost.";
@@ -117,13 +121,23 @@ export class Client implements WireListener {
 
   private listen(): void {
     const { store, wire } = this;
-    const on = (topic: string, type: string, handle: (message: unknown) => void, compression: "cbor" | "cbor-raw" = "cbor") =>
-      wire.subscribe(this.name(topic), { type, compression }, handle);
-    on("keypoint_markers", "visualization_msgs/MarkerArray", (message) => this.desk.view.receive(keypointsFromMarkers(message)));
+    const on = (
+      topic: string,
+      type: string,
+      handle: (message: unknown) => void,
+      compression: "cbor" | "cbor-raw" = "cbor",
+    ) => wire.subscribe(this.name(topic), { type, compression }, handle);
+    on("keypoint_markers", "visualization_msgs/MarkerArray", (message) =>
+      this.desk.view.receive(keypointsFromMarkers(message)),
+    );
     on("path", "nav_msgs/Path", (message) => this.takePath(message), "cbor-raw");
     on("tour", "nav_msgs/Path", (message) => this.takeTour(message), "cbor-raw");
-    on("edit_results", "diagnostic_msgs/DiagnosticStatus", (message) => this.desk.answered(answers.editResult(message)));
-    on("playback", "std_msgs/String", (message) => store.set("playback", answers.playbackState(message, this.clock.now())));
+    on("edit_results", "diagnostic_msgs/DiagnosticStatus", (message) =>
+      this.desk.answered(answers.editResult(message)),
+    );
+    on("playback", "std_msgs/String", (message) =>
+      store.set("playback", answers.playbackState(message, this.clock.now())),
+    );
     on("bridge/files", "std_msgs/String", (message) => this.loader.announced(answers.files(message)));
     on("bridge/session", "std_msgs/String", (message) => store.set("session", answers.session(message)));
     on("/diagnostics", "diagnostic_msgs/DiagnosticArray", (message) => this.takeStatuses(message));
@@ -168,7 +182,8 @@ export class Client implements WireListener {
       if (parameters) keepParameters(this.store, node, parameters);
     }
     this.clock.clearTimer(this.parametersTimer);
-    if (this.wire.open) this.parametersTimer = this.clock.setTimer(() => void this.readAllParameters(), PARAMETERS_AGAIN_MS);
+    if (this.wire.open)
+      this.parametersTimer = this.clock.setTimer(() => void this.readAllParameters(), PARAMETERS_AGAIN_MS);
   }
 
   private parametersTimer = 0;

@@ -124,5 +124,7 @@ export class EditDesk {
 
 /** A deletion that is sent again after a lost connection finds its keypoint gone: it is what was wanted. */
 function goneAnyway(edit: Edit, outcome: Outcome, view: KeypointView): boolean {
-  return edit.change === "remove" && outcome.outcome === "refused" && edit.keypoint !== null && !view.has(edit.keypoint);
+  return (
+    edit.change === "remove" && outcome.outcome === "refused" && edit.keypoint !== null && !view.has(edit.keypoint)
+  );
 }

@@ -22,7 +22,12 @@ const MAX_VOXELS = 64e6;
  * @param alive asked before each attempt: false ends the waiting with null.
  * @throws FileError with the server's sentence where the file cannot be had.
  */
-export async function patient(get: Fetch, url: string, alive: () => boolean, onWait: () => void): Promise<Response | null> {
+export async function patient(
+  get: Fetch,
+  url: string,
+  alive: () => boolean,
+  onWait: () => void,
+): Promise<Response | null> {
   while (alive()) {
     const answer = await get(url).catch(() => null);
     if (answer?.ok) return answer;
@@ -71,11 +76,12 @@ function modelFile(value: unknown, where: string): ModelFile {
 
 function storeyFrom(value: unknown): Storey {
   const said = fields(value, "storey");
-  const outline = list(said.outline, "outline").map((ring): Ring =>
-    list(ring, "ring").map((pair) => {
-      const [x, y] = list(pair, "corner");
-      return [finite(x, "corner"), finite(y, "corner")] as const;
-    }),
+  const outline = list(said.outline, "outline").map(
+    (ring): Ring =>
+      list(ring, "ring").map((pair) => {
+        const [x, y] = list(pair, "corner");
+        return [finite(x, "corner"), finite(y, "corner")] as const;
+      }),
   );
   return { name: words(said.name, "storey.name"), floorZ: finite(said.floor_z_m, "floor_z_m"), outline };
 }

@@ -32,7 +32,11 @@ export class Files {
 
   announced(files: Announced): void {
     const { building, importance } = this.store.state;
-    if (files.buildingEtag && files.buildingEtag !== building?.model.etag && files.buildingEtag !== this.announcedEtag) {
+    if (
+      files.buildingEtag &&
+      files.buildingEtag !== building?.model.etag &&
+      files.buildingEtag !== this.announcedEtag
+    ) {
       this.announcedEtag = files.buildingEtag;
       void this.readBuilding();
     }

@@ -17,7 +17,12 @@ export const GROUPS: Readonly<Record<string, readonly string[]>> = {
 const WALKER_NODES = ["importance", "sequencer", "trajopt", "vr_bridge"];
 
 const TYPES = { 1: "boolean", 2: "integer", 3: "double", 4: "string" } as const;
-const VALUE_FIELDS = { boolean: "bool_value", integer: "integer_value", double: "double_value", string: "string_value" };
+const VALUE_FIELDS = {
+  boolean: "bool_value",
+  integer: "integer_value",
+  double: "double_value",
+  string: "string_value",
+};
 const TYPE_NUMBERS = { boolean: 1, integer: 2, double: 3, string: 4 };
 const UNIT = / \[([^\]]+)\]$/;
 const CHOICES = / \(one of: ([^)]+)\)$/;
@@ -63,7 +68,10 @@ function parameterOf(node: string, name: string, descriptor: unknown, value: unk
 }
 
 function rangeOf(descriptor: Fields): { min: number | null; max: number | null } {
-  const ranges = [...list(descriptor.floating_point_range ?? [], "range"), ...list(descriptor.integer_range ?? [], "range")];
+  const ranges = [
+    ...list(descriptor.floating_point_range ?? [], "range"),
+    ...list(descriptor.integer_range ?? [], "range"),
+  ];
   if (ranges.length === 0) return { min: null, max: null };
   const { from_value: from, to_value: to } = fields(ranges[0], "range");
   return { min: bound(from), max: bound(to) };

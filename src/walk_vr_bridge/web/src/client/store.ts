@@ -2,7 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The page's state with listeners per slice; telling them costs no allocation. */
 
-import type { LoadingState, OfferState, PathState, SelectionState, SettingsState, Slice, State, TourState } from "./state";
+import type {
+  LoadingState,
+  OfferState,
+  PathState,
+  SelectionState,
+  SettingsState,
+  Slice,
+  State,
+  TourState,
+} from "./state";
 
 export type Listener = () => void;
 

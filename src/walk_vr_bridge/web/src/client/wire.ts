@@ -191,7 +191,8 @@ export class Wire {
     }
     if (operation.op === "publish") this.deliver(operation);
     else if (operation.op === "service_response") this.answer(operation);
-    else if (operation.op === "status" && !String(operation.id).startsWith(OPTIONAL)) this.listener.complained(String(operation.msg ?? ""));
+    else if (operation.op === "status" && !String(operation.id).startsWith(OPTIONAL))
+      this.listener.complained(String(operation.msg ?? ""));
   }
 
   private deliver(operation: Record<string, unknown>): void {

@@ -11,7 +11,9 @@ export interface Covered {
 
 /** Measures it. A panel as wide as the window is a sheet at its foot. */
 export function coveredBy(parts: { head: Element; rail: Element; panel: Element; playbar: Element }): Covered {
-  const [head, rail, panel, playbar] = [parts.head, parts.rail, parts.panel, parts.playbar].map((part) => part.getBoundingClientRect());
+  const [head, rail, panel, playbar] = [parts.head, parts.rail, parts.panel, parts.playbar].map((part) =>
+    part.getBoundingClientRect(),
+  );
   const sheet = panel!.width > window.innerWidth * 0.8;
   const foot = sheet ? panel!.top : playbar!.height > 0 ? playbar!.top : window.innerHeight;
   return {

@@ -35,7 +35,13 @@ export function pairing(client: Client): HTMLDialogElement {
   const dialog = element("dialog", "card pairing");
   const form = element("form");
   const input = element("input");
-  Object.assign(input, { inputMode: "numeric", autocomplete: "one-time-code", maxLength: 9, required: true, id: "code" });
+  Object.assign(input, {
+    inputMode: "numeric",
+    autocomplete: "one-time-code",
+    maxLength: 9,
+    required: true,
+    id: "code",
+  });
   const label = element("label", "", "Code from the bridge's window (8 digits)");
   label.htmlFor = input.id;
   const problem = element("p", "problem");
@@ -55,7 +61,9 @@ export function pairing(client: Client): HTMLDialogElement {
     });
   });
   renew.addEventListener("click", () => {
-    void renewCode().then((refused) => (problem.textContent = refused || "Another code stands in the bridge's window."));
+    void renewCode().then(
+      (refused) => (problem.textContent = refused || "Another code stands in the bridge's window."),
+    );
   });
   dialog.addEventListener("cancel", (event) => event.preventDefault());
   client.store.subscribe("connection", () => {
@@ -71,7 +79,11 @@ export function help(): HTMLDialogElement {
   const close = element("button", "button", "Close");
   close.type = "button";
   close.addEventListener("click", () => dialog.close());
-  const mouse = element("p", "", "Drag a keypoint over its floor to move it; the walk follows. Drag beside one to turn the view, with Shift or the right button to move it; the wheel goes nearer. In the plan, dragging moves the plan.");
+  const mouse = element(
+    "p",
+    "",
+    "Drag a keypoint over its floor to move it; the walk follows. Drag beside one to turn the view, with Shift or the right button to move it; the wheel goes nearer. In the plan, dragging moves the plan.",
+  );
   const list = element("dl");
   for (const [keys, does] of KEYS) list.append(element("dt", "", keys), element("dd", "", does));
   dialog.append(element("h1", "", "How it works"), mouse, list, close);

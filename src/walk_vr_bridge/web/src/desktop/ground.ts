@@ -55,7 +55,9 @@ export class Ground {
     const least = this.cutDistance(origin, direction);
     const { distance } = bvh.cast(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, least);
     if (!Number.isFinite(distance)) return null;
-    return HIT.copy(direction).multiplyScalar(distance - BACK_M).add(origin);
+    return HIT.copy(direction)
+      .multiplyScalar(distance - BACK_M)
+      .add(origin);
   }
 
   /** Nothing before the cut is seen: rays begin there. */

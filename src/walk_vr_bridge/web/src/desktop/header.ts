@@ -82,7 +82,11 @@ function duration(seconds: number): string {
 }
 
 function phaseWord(phase: string): string {
-  return { connecting: "connecting …", waiting: "connection lost, trying again …", pairing: "waiting for the code" }[phase] ?? "not connected";
+  return (
+    { connecting: "connecting …", waiting: "connection lost, trying again …", pairing: "waiting for the code" }[
+      phase
+    ] ?? "not connected"
+  );
 }
 
 /** The button into the headset, where there is one; a headset may be plugged in later. */

@@ -56,7 +56,11 @@ export class Desktop {
     const covered = (): Covered =>
       coveredBy({ head: this.header.root, rail: this.rail.root, panel: this.domPanel.root, playbar });
     this.stroll = new Stroll(view, stage);
-    this.viewpoints = { orbit: new Orbit(view, stage, covered), plan: new Plan(view, stage, covered), walk: this.stroll };
+    this.viewpoints = {
+      orbit: new Orbit(view, stage, covered),
+      plan: new Plan(view, stage, covered),
+      walk: this.stroll,
+    };
     this.current = this.viewpoints.orbit;
     const ground = new Ground(stage);
     const pointer = new Pointer(canvas, stage, client, ground, () => this.current);

@@ -39,11 +39,20 @@ export interface KeyPort {
 }
 
 const WALK: Readonly<Record<string, "forward" | "back" | "left" | "right">> = {
-  KeyW: "forward", ArrowUp: "forward", KeyS: "back", ArrowDown: "back",
-  KeyA: "left", ArrowLeft: "left", KeyD: "right", ArrowRight: "right",
+  KeyW: "forward",
+  ArrowUp: "forward",
+  KeyS: "back",
+  ArrowDown: "back",
+  KeyA: "left",
+  ArrowLeft: "left",
+  KeyD: "right",
+  ArrowRight: "right",
 };
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
-  ArrowUp: [0, 1], ArrowDown: [0, -1], ArrowLeft: [-1, 0], ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1],
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
 };
 
 export function listenToKeys(port: KeyPort): void {
@@ -56,7 +65,9 @@ export function listenToKeys(port: KeyPort): void {
     if (way) port.stroll.keys[way] = 0;
     port.stroll.keys.fast = event.shiftKey ? 1 : 0;
   });
-  window.addEventListener("blur", () => Object.assign(port.stroll.keys, { forward: 0, back: 0, left: 0, right: 0, fast: 0 }));
+  window.addEventListener("blur", () =>
+    Object.assign(port.stroll.keys, { forward: 0, back: 0, left: 0, right: 0, fast: 0 }),
+  );
 }
 
 /** Whether the key belongs to a control of the page. */

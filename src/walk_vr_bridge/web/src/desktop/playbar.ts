@@ -5,7 +5,8 @@
 import type { Client } from "../client/client";
 import { playbackTimeS } from "../client/playback";
 import { button } from "../panel/buttons";
-import { makeWidget, type Shown } from "../panel/dom_widgets";
+import type { Shown } from "../panel/dom_controls";
+import { makeWidget } from "../panel/dom_widgets";
 import { element } from "../panel/element";
 import { timeSlider } from "../panel/walk";
 import type { Widget } from "../panel/widgets";
@@ -42,7 +43,12 @@ export class Playbar {
     const disabled = state.session.role !== "editor";
     const run = (): void => void (playing ? actions.pause() : actions.play());
     const icon = playing ? "pause" : "play";
-    const play = button("playbar-play", playing ? "Pause" : "Play", run, { icon, compact: true, tone: "primary", disabled });
+    const play = button("playbar-play", playing ? "Pause" : "Play", run, {
+      icon,
+      compact: true,
+      tone: "primary",
+      disabled,
+    });
     const now = playbackTimeS(state.playback, Date.now());
     return [play, { ...timeSlider(state, actions, now, disabled), id: "playbar-time" }];
   }

@@ -84,7 +84,16 @@ export class Pointer {
     const single = this.presses.size === 0 && !pan && this.client.store.state.selection.tool === "edit";
     const keypoint = single ? this.keypointAt(x, y, event.pointerType === "touch") : null;
     this.presses.set(event.pointerId, {
-      pointer: event.pointerId, x, y, lastX: x, lastY: y, moved: false, pan, keypoint, held: false, place: null,
+      pointer: event.pointerId,
+      x,
+      y,
+      lastX: x,
+      lastY: y,
+      moved: false,
+      pan,
+      keypoint,
+      held: false,
+      place: null,
     });
     this.spread = this.pinchSpread();
   }

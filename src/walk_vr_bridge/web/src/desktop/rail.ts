@@ -27,7 +27,9 @@ export class StoreyRail {
     const look = JSON.stringify([all, building?.hash]);
     if (look !== this.drawn) {
       this.drawn = look;
-      const buttons = storeys.map(({ name, floorZ }, index) => this.button(name, `floor at ${floorZ.toFixed(2)} m`, index));
+      const buttons = storeys.map(({ name, floorZ }, index) =>
+        this.button(name, `floor at ${floorZ.toFixed(2)} m`, index),
+      );
       this.root.replaceChildren(...(all ? [this.button("All", "the whole building", -1)] : []), ...buttons.reverse());
     }
     for (const child of this.root.children as HTMLCollectionOf<HTMLElement>) {

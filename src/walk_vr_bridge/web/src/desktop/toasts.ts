@@ -83,7 +83,10 @@ export class Toasts {
     if (Math.abs(AT.x) > 0.95 || Math.abs(AT.y) > 0.95 || AT.z > 1) return null;
     const px = ((AT.x + 1) / 2) * canvas.clientWidth;
     const half = Math.min(170, canvas.clientWidth / 2 - 12);
-    return { x: Math.min(canvas.clientWidth - half - 8, Math.max(half + 8, px)), y: Math.max(LEAST_TOP_PX, ((1 - AT.y) / 2) * canvas.clientHeight) };
+    return {
+      x: Math.min(canvas.clientWidth - half - 8, Math.max(half + 8, px)),
+      y: Math.max(LEAST_TOP_PX, ((1 - AT.y) / 2) * canvas.clientHeight),
+    };
   }
 
   private drop(toast: Toast): void {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel on the page: tabs and sections as elements, brought up to date when the model changes. */
 
-import { makeWidget, type DomPort, type Shown } from "./dom_widgets";
+import type { Shown } from "./dom_controls";
+import { makeWidget, type DomPort } from "./dom_widgets";
 import { element, icon, setText } from "./element";
 import type { PanelModel } from "./model";
 import { TABS, type Section, type TabId } from "./widgets";

@@ -1,58 +1,15 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
-/** Where everything of the panel is on the headset's picture [px of the texture]: no drawing here, so it can be tested. */
+/** Where everything of the panel is on the headset's picture: no drawing here, so it can be tested. */
 
-import type { IconName } from "./icons";
+import { PAD, SIZE, TABS_HEIGHT, WIDTH, type Layout, type Look, type Measure, type Zone } from "./sheet";
 import { TABS, type Button, type Section, type TabId, type Widget } from "./widgets";
 
-export const WIDTH = 1024;
-export const HEIGHT = 1536;
-export const TABS_HEIGHT = 128;
-export const PAD = 44;
-/** Text sizes; nothing is smaller than the last, which is still read at arm's length on a sheet 0.5 m wide. */
-export const SIZE = { title: 34, body: 32, small: 26 } as const;
 const LINE = 1.32;
 const GAP = 16;
 const ROW = 80;
 const INNER = WIDTH - 2 * PAD;
 const MARKS_LEAST = 24;
-
-/** How a zone is drawn. */
-export type Look =
-  | "tab" | "heading" | "text" | "button" | "segment" | "toggle" | "slider" | "item" | "drag" | "legend" | "mark" | "value";
-
-export interface Zone {
-  /** The same from one layout to the next: what is hovered or held is found again by it. */
-  readonly key: string;
-  readonly look: Look;
-  readonly x: number;
-  readonly y: number;
-  readonly w: number;
-  readonly h: number;
-  readonly lines: readonly string[];
-  readonly detail?: string;
-  readonly icon?: IconName;
-  readonly tone?: string;
-  readonly on?: boolean;
-  readonly disabled?: boolean;
-  /** The number of an item; where a slider's knob is. */
-  readonly number?: string;
-  readonly position?: number;
-  press?(): void;
-  /** For sliders: `done` when it is let go. */
-  slide?(position: number, done: boolean): void;
-  /** What the value reads like at a position. */
-  text?(position: number): string;
-}
-
-export interface Layout {
-  readonly zones: readonly Zone[];
-  /** How far the body reaches, without scrolling [px]. */
-  readonly bottom: number;
-}
-
-/** Width of a text at a size [px]. */
-export type Measure = (text: string, size: number) => number;
 
 export function layOut(tab: TabId, open: (tab: TabId) => void, sections: readonly Section[], measure: Measure): Layout {
   const pen = new Pen(measure);
@@ -82,7 +39,18 @@ class Pen {
     const w = WIDTH / TABS.length;
     TABS.forEach(({ id, label, icon }, index) => {
       const press = (): void => open(id);
-      this.zones.push({ key: `tab:${id}`, look: "tab", x: index * w, y: 0, w, h: TABS_HEIGHT, lines: [label], icon, on: id === tab, press });
+      this.zones.push({
+        key: `tab:${id}`,
+        look: "tab",
+        x: index * w,
+        y: 0,
+        w,
+        h: TABS_HEIGHT,
+        lines: [label],
+        icon,
+        on: id === tab,
+        press,
+      });
     });
   }
 
@@ -100,18 +68,53 @@ class Pen {
       case "row":
         return this.row(key, widget.buttons);
       case "toggle":
-        return this.full(key, "toggle", { lines: [widget.label], detail: widget.hint, on: widget.on, disabled: widget.disabled, press: () => widget.set(!widget.on) }, widget.hint ? 92 : ROW);
+        return this.full(
+          key,
+          "toggle",
+          {
+            lines: [widget.label],
+            detail: widget.hint,
+            on: widget.on,
+            disabled: widget.disabled,
+            press: () => widget.set(!widget.on),
+          },
+          widget.hint ? 92 : ROW,
+        );
       case "choice":
         return this.choice(key, widget);
       case "slider": {
-        const slide = (position: number, done: boolean): void => (done ? widget.commit(position) : widget.input?.(position));
+        const slide = (position: number, done: boolean): void =>
+          done ? widget.commit(position) : widget.input?.(position);
         const text = (position: number): string => widget.text(position);
-        return this.full(key, "slider", { lines: [widget.label], position: widget.position, disabled: widget.disabled, slide, text }, 104);
+        return this.full(
+          key,
+          "slider",
+          { lines: [widget.label], position: widget.position, disabled: widget.disabled, slide, text },
+          104,
+        );
       }
       case "item":
-        return this.full(key, "item", { lines: [this.cut(widget.title, SIZE.body, INNER - 120)], detail: this.cut(widget.detail, SIZE.small, INNER - 120), number: widget.number, tone: widget.tone, on: widget.chosen, press: () => widget.choose() }, 84, 6);
+        return this.full(
+          key,
+          "item",
+          {
+            lines: [this.cut(widget.title, SIZE.body, INNER - 120)],
+            detail: this.cut(widget.detail, SIZE.small, INNER - 120),
+            number: widget.number,
+            tone: widget.tone,
+            on: widget.chosen,
+            press: () => widget.choose(),
+          },
+          84,
+          6,
+        );
       case "drag":
-        return this.full(key, "drag", { lines: [widget.label], detail: "Take it, and put it on a floor", disabled: widget.disabled }, 104);
+        return this.full(
+          key,
+          "drag",
+          { lines: [widget.label], detail: "Take it, and put it on a floor", disabled: widget.disabled },
+          104,
+        );
       case "note":
         return this.text(key, widget.text, widget.tone === "title" ? SIZE.title : SIZE.body, "text", widget.tone);
       case "legend":
@@ -130,7 +133,13 @@ class Pen {
 
   private text(key: string, text: string, size: number, look: Look, tone?: string): void {
     const broken = lines(text, size, INNER, this.measure);
-    this.full(key, look, { lines: broken, tone }, Math.ceil(broken.length * size * LINE), look === "heading" ? 10 : GAP);
+    this.full(
+      key,
+      look,
+      { lines: broken, tone },
+      Math.ceil(broken.length * size * LINE),
+      look === "heading" ? 10 : GAP,
+    );
   }
 
   private cut(text: string, size: number, width: number): string {
@@ -143,7 +152,9 @@ class Pen {
   private row(key: string, buttons: readonly Button[]): void {
     const gap = 12;
     const w = (INNER - gap * (buttons.length - 1)) / buttons.length;
-    const needed = buttons.map(({ label, icon, compact }) => (compact ? 0 : this.measure(label, SIZE.body) + (icon ? 48 : 0) + 32));
+    const needed = buttons.map(({ label, icon, compact }) =>
+      compact ? 0 : this.measure(label, SIZE.body) + (icon ? 48 : 0) + 32,
+    );
     if (buttons.length > 1 && needed.some((one) => one > w)) {
       for (const button of buttons) this.row(`${key}:${button.id}`, [button]);
       return;
@@ -152,7 +163,17 @@ class Pen {
       const { label, icon, compact, pressed, disabled, tone } = button;
       const shown = compact ? [] : [this.cut(label, SIZE.body, w - 24)];
       const place = { x: PAD + index * (w + gap), y: this.y, w, h: ROW };
-      this.zones.push({ key: `${key}:${button.id}`, look: "button", ...place, lines: shown, icon, on: pressed, disabled, tone, press: () => button.run() });
+      this.zones.push({
+        key: `${key}:${button.id}`,
+        look: "button",
+        ...place,
+        lines: shown,
+        icon,
+        on: pressed,
+        disabled,
+        tone,
+        press: () => button.run(),
+      });
     });
     this.y += ROW + GAP;
   }
@@ -164,9 +185,22 @@ class Pen {
     const across = Math.min(options.length, Math.max(1, Math.floor((INNER + gap) / (widest + gap))));
     const w = (INNER - gap * (across - 1)) / across;
     options.forEach((option, index) => {
-      const place = { x: PAD + (index % across) * (w + gap), y: this.y + Math.floor(index / across) * (ROW + gap), w, h: ROW };
+      const place = {
+        x: PAD + (index % across) * (w + gap),
+        y: this.y + Math.floor(index / across) * (ROW + gap),
+        w,
+        h: ROW,
+      };
       const press = (): void => choose(option.value);
-      this.zones.push({ key: `${key}:${option.value}`, look: "segment", ...place, lines: [option.label], on: option.value === value, disabled, press });
+      this.zones.push({
+        key: `${key}:${option.value}`,
+        look: "segment",
+        ...place,
+        lines: [option.label],
+        on: option.value === value,
+        disabled,
+        press,
+      });
     });
     this.y += Math.ceil(options.length / across) * (ROW + gap) + GAP - gap;
   }
@@ -178,7 +212,14 @@ class Pen {
     for (let index = 0; index < count; index++) {
       const press = (): void => choose(index);
       const place = { x: PAD + index * w, y: this.y, w, h: 100 };
-      this.zones.push({ key: `${key}:${index}`, look: "mark", ...place, lines: words ? [text(index)] : [], on: index === value, press });
+      this.zones.push({
+        key: `${key}:${index}`,
+        look: "mark",
+        ...place,
+        lines: words ? [text(index)] : [],
+        on: index === value,
+        press,
+      });
     }
     this.y += 108;
     this.full(`${key}:ends`, "legend", { lines: ends, tone: "bare" }, 40);
@@ -188,27 +229,39 @@ class Pen {
     const [h, y] = [ROW, this.y];
     const less = WIDTH - PAD - 440;
     this.zones.push({ key, look: "text", x: PAD, y: y + 18, w: less - PAD, h: 44, lines: [label] });
-    this.zones.push({ key: `${key}:less`, look: "button", x: less, y, w: 90, h, lines: [], icon: "minus", disabled, press: () => step(-1) });
-    this.zones.push({ key: `${key}:value`, look: "value", x: less + 96, y, w: 248, h, lines: [this.cut(value, SIZE.body, 240)] });
-    this.zones.push({ key: `${key}:more`, look: "button", x: WIDTH - PAD - 90, y, w: 90, h, lines: [], icon: "plus", disabled, press: () => step(1) });
+    this.zones.push({
+      key: `${key}:less`,
+      look: "button",
+      x: less,
+      y,
+      w: 90,
+      h,
+      lines: [],
+      icon: "minus",
+      disabled,
+      press: () => step(-1),
+    });
+    this.zones.push({
+      key: `${key}:value`,
+      look: "value",
+      x: less + 96,
+      y,
+      w: 248,
+      h,
+      lines: [this.cut(value, SIZE.body, 240)],
+    });
+    this.zones.push({
+      key: `${key}:more`,
+      look: "button",
+      x: WIDTH - PAD - 90,
+      y,
+      w: 90,
+      h,
+      lines: [],
+      icon: "plus",
+      disabled,
+      press: () => step(1),
+    });
     this.y += h + GAP;
   }
-}
-
-/** The zone at a place of the picture that can be used, or null. Tabs stay; the rest moves with the scrolling. */
-export function zoneAt(layout: Layout, x: number, y: number, scroll: number): Zone | null {
-  for (const zone of layout.zones) {
-    const top = zone.look === "tab" ? zone.y : zone.y - scroll;
-    if (zone.look !== "tab" && y < TABS_HEIGHT) continue;
-    const inside = x >= zone.x && x < zone.x + zone.w && y >= top && y < top + zone.h;
-    if (inside && !zone.disabled && (zone.press || zone.slide || zone.look === "drag")) return zone;
-  }
-  return null;
-}
-
-/** A slider's travel begins and ends this far from its zone's edges [px]. */
-export const SLIDER_INSET = 20;
-
-export function slideAt(zone: Zone, x: number): number {
-  return Math.min(1, Math.max(0, (x - zone.x - SLIDER_INSET) / (zone.w - 2 * SLIDER_INSET)));
 }

@@ -14,8 +14,18 @@ import { walkSections } from "./walk";
 import type { Section, TabId } from "./widgets";
 
 const SLICES: readonly Slice[] = [
-  "connection", "session", "building", "keypoints", "path", "importance", "parameters", "playback", "settings",
-  "selection", "offer", "loading",
+  "connection",
+  "session",
+  "building",
+  "keypoints",
+  "path",
+  "importance",
+  "parameters",
+  "playback",
+  "settings",
+  "selection",
+  "offer",
+  "loading",
 ];
 /** While it plays, the time shown moves on this often. */
 const TICK_MS = 250;

@@ -2,13 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Draws the panel's zones on a canvas. */
 
-import { ICONS, type IconName } from "./icons";
-import { HEIGHT, SIZE, SLIDER_INSET, TABS_HEIGHT, WIDTH, type Layout, type Zone } from "./layout";
+import { HEIGHT, SIZE, SLIDER_INSET, TABS_HEIGHT, WIDTH, type Layout, type Zone } from "./sheet";
+import { centred, drawIcon, font, round, write } from "./strokes";
 
-const FONT = 'Inter, "Segoe UI", system-ui, "Noto Sans", "Liberation Sans", "DejaVu Sans", sans-serif';
 const C = {
-  ink: "#1e2731", soft: "#4c5864", line: "#ccd4db", paper: "#ffffff", wash: "#f0f3f5", accent: "#1668c7",
-  accentWash: "#e0edfb", hover: "#dfe8f0", bad: "#a51d25", good: "#14743f", pin: "#ffb02e", off: "#b4bfc8",
+  ink: "#1e2731",
+  soft: "#4c5864",
+  line: "#ccd4db",
+  paper: "#ffffff",
+  wash: "#f0f3f5",
+  accent: "#1668c7",
+  accentWash: "#e0edfb",
+  hover: "#dfe8f0",
+  bad: "#a51d25",
+  good: "#14743f",
+  pin: "#ffb02e",
+  off: "#b4bfc8",
 } as const;
 const NUMBERS: Readonly<Record<string, readonly [string, string]>> = {
   plain: [C.pin, "#332200"],
@@ -24,10 +33,6 @@ export interface Marks {
   readonly pressed: ReadonlySet<string>;
   /** Where a slider that is being moved has its knob. */
   readonly sliding: ReadonlyMap<string, number>;
-}
-
-export function font(size: number, weight = 400): string {
-  return `${weight} ${size}px ${FONT}`;
 }
 
 /** Draws all of it; what is scrolled away is clipped. */
@@ -76,44 +81,6 @@ function draw(pen: CanvasRenderingContext2D, zone: Zone, marks: Marks): void {
   else if (zone.look === "mark") mark(pen, zone, hovered);
   else if (zone.look === "value") centred(pen, zone.lines[0] ?? "", zone, C.ink);
   pen.globalAlpha = 1;
-}
-
-function round(pen: CanvasRenderingContext2D, x: number, y: number, w: number, h: number, radius: number, fill: string, edge = ""): void {
-  pen.beginPath();
-  pen.roundRect(x, y, w, h, radius);
-  pen.fillStyle = fill;
-  pen.fill();
-  if (!edge) return;
-  pen.strokeStyle = edge;
-  pen.lineWidth = 3;
-  pen.stroke();
-}
-
-function write(pen: CanvasRenderingContext2D, lines: readonly string[], x: number, y: number, size: number, colour: string, weight = 400): void {
-  pen.font = font(size, weight);
-  pen.fillStyle = colour;
-  pen.textAlign = "left";
-  pen.textBaseline = "top";
-  lines.forEach((line, index) => pen.fillText(line, x, y + index * size * 1.32));
-}
-
-function centred(pen: CanvasRenderingContext2D, text: string, zone: Zone, colour: string, weight = 500): void {
-  pen.font = font(SIZE.body, weight);
-  pen.fillStyle = colour;
-  pen.textAlign = "center";
-  pen.textBaseline = "middle";
-  pen.fillText(text, zone.x + zone.w / 2, zone.y + zone.h / 2 + 1);
-}
-
-function drawIcon(pen: CanvasRenderingContext2D, name: IconName, x: number, y: number, size: number, colour: string): void {
-  pen.save();
-  pen.translate(x, y);
-  pen.scale(size / 24, size / 24);
-  pen.strokeStyle = colour;
-  pen.lineWidth = 1.9;
-  pen.lineCap = pen.lineJoin = "round";
-  pen.stroke(new Path2D(ICONS[name]));
-  pen.restore();
 }
 
 function tab(pen: CanvasRenderingContext2D, zone: Zone, hovered: boolean): void {
@@ -192,12 +159,22 @@ function item(pen: CanvasRenderingContext2D, zone: Zone, hovered: boolean): void
   pen.textBaseline = "middle";
   pen.fillText(zone.number ?? "", zone.x + 43, zone.y + zone.h / 2 + 1);
   write(pen, zone.lines, zone.x + 92, zone.y + (zone.detail ? 8 : 24), SIZE.body, C.ink, 500);
-  if (zone.detail) write(pen, [zone.detail], zone.x + 92, zone.y + 47, SIZE.small, zone.tone === "warn" ? C.bad : C.soft);
+  if (zone.detail)
+    write(pen, [zone.detail], zone.x + 92, zone.y + 47, SIZE.small, zone.tone === "warn" ? C.bad : C.soft);
 }
 
 function drag(pen: CanvasRenderingContext2D, zone: Zone, hovered: boolean): void {
   pen.setLineDash([14, 10]);
-  round(pen, zone.x + 2, zone.y + 2, zone.w - 4, zone.h - 4, 18, hovered ? C.accentWash : C.wash, hovered ? C.accent : C.off);
+  round(
+    pen,
+    zone.x + 2,
+    zone.y + 2,
+    zone.w - 4,
+    zone.h - 4,
+    18,
+    hovered ? C.accentWash : C.wash,
+    hovered ? C.accent : C.off,
+  );
   pen.setLineDash([]);
   round(pen, zone.x + 24, zone.y + zone.h / 2 - 24, 48, 48, 24, C.pin, "#ffffff");
   write(pen, zone.lines, zone.x + 96, zone.y + 14, SIZE.body, C.ink, 500);
@@ -223,6 +200,15 @@ function legend(pen: CanvasRenderingContext2D, zone: Zone): void {
 function mark(pen: CanvasRenderingContext2D, zone: Zone, hovered: boolean): void {
   const gap = zone.lines.length > 0 ? 6 : 1;
   const fill = zone.on ? C.accent : hovered ? C.hover : C.wash;
-  round(pen, zone.x + gap, zone.y, zone.w - 2 * gap, zone.h, zone.lines.length > 0 ? 18 : 6, fill, zone.on ? C.accent : C.line);
+  round(
+    pen,
+    zone.x + gap,
+    zone.y,
+    zone.w - 2 * gap,
+    zone.h,
+    zone.lines.length > 0 ? 18 : 6,
+    fill,
+    zone.on ? C.accent : C.line,
+  );
   if (zone.lines[0]) centred(pen, zone.lines[0], zone, zone.on ? "#ffffff" : C.ink);
 }

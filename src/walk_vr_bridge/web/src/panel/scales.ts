@@ -66,7 +66,10 @@ function byDecades(low: number, high: number, zero: boolean): Travel {
 }
 
 export function formatted(value: number, unit: string): string {
-  const digits = Math.abs(value) >= 1000 || Number.isInteger(value) ? String(Math.round(value)) : String(Number(value.toPrecision(3)));
+  const digits =
+    Math.abs(value) >= 1000 || Number.isInteger(value)
+      ? String(Math.round(value))
+      : String(Number(value.toPrecision(3)));
   return unit ? `${digits} ${unit}` : digits;
 }
 

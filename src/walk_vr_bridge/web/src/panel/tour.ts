@@ -128,12 +128,29 @@ function chosenWidgets(keypoint: Keypoint, state: State, actions: Actions): Widg
       kind: "row",
       id: `chosen:${id}`,
       buttons: [
-        button("lock", locked ? "Unlock" : "Lock", lock, { ...compact, icon: locked ? "lock" : "unlock", pressed: locked }),
-        button("start", start ? "No longer the start" : "Start here", () => void (start ? actions.freeEnd(id) : actions.setStart(id)), { ...compact, icon: "start", pressed: start }),
-        button("end", end ? "No longer the end" : "End here", () => void (end ? actions.freeEnd(id) : actions.setEnd(id)), { ...compact, icon: "end", pressed: end }),
+        button("lock", locked ? "Unlock" : "Lock", lock, {
+          ...compact,
+          icon: locked ? "lock" : "unlock",
+          pressed: locked,
+        }),
+        button(
+          "start",
+          start ? "No longer the start" : "Start here",
+          () => void (start ? actions.freeEnd(id) : actions.setStart(id)),
+          { ...compact, icon: "start", pressed: start },
+        ),
+        button(
+          "end",
+          end ? "No longer the end" : "End here",
+          () => void (end ? actions.freeEnd(id) : actions.setEnd(id)),
+          { ...compact, icon: "end", pressed: end },
+        ),
         button("earlier", "Earlier in the tour", () => void actions.reorder(id, "earlier"), { ...compact, icon: "up" }),
         button("later", "Later in the tour", () => void actions.reorder(id, "later"), { ...compact, icon: "down" }),
-        button("half-way", "Add one half-way to the next", () => void actions.insertHalfWay(id), { ...compact, icon: "plus" }),
+        button("half-way", "Add one half-way to the next", () => void actions.insertHalfWay(id), {
+          ...compact,
+          icon: "plus",
+        }),
         button("delete", "Delete", () => void actions.remove(id), { ...compact, icon: "trash", tone: "danger" }),
       ],
     },
@@ -142,7 +159,12 @@ function chosenWidgets(keypoint: Keypoint, state: State, actions: Actions): Widg
       kind: "row",
       id: `look:${id}`,
       buttons: [
-        button("look-at", aiming ? "Point at something …" : "Look at …", () => actions.useTool(aiming ? "edit" : "lookAt"), { icon: "target", pressed: aiming }),
+        button(
+          "look-at",
+          aiming ? "Point at something …" : "Look at …",
+          () => actions.useTool(aiming ? "edit" : "lookAt"),
+          { icon: "target", pressed: aiming },
+        ),
         button("look-ahead", "Look ahead", () => void actions.lookAt(id, null), { disabled: lookAt === null }),
       ],
     },

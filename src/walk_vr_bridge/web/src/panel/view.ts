@@ -138,5 +138,10 @@ function collisionNote(clearanceM: Float32Array, count: number): Widget {
   let hits = 0;
   for (let row = 0; row < count; row++) if (clearanceM[row]! < 0) hits++;
   if (hits === 0) return { kind: "note", id: "free", text: "The walker touches nothing.", tone: "good" };
-  return { kind: "note", id: "hits", text: `The walker touches the building at ${hits} of ${count} places.`, tone: "warn" };
+  return {
+    kind: "note",
+    id: "hits",
+    text: `The walker touches the building at ${hits} of ${count} places.`,
+    tone: "warn",
+  };
 }

@@ -2,12 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel in the headset: a sheet in the room with the model's picture, drawn anew only when it has changed. */
 
-import { CanvasTexture, Group, LinearFilter, Mesh, MeshBasicMaterial, PlaneGeometry, SRGBColorSpace, type Vector2 } from "three";
+import {
+  CanvasTexture,
+  Group,
+  LinearFilter,
+  Mesh,
+  MeshBasicMaterial,
+  PlaneGeometry,
+  SRGBColorSpace,
+  type Vector2,
+} from "three";
 import type { Hand } from "../client/state";
 import type { PanelPort, PanelPress } from "../xr/panelport";
-import { HEIGHT, layOut, slideAt, TABS_HEIGHT, WIDTH, zoneAt, type Layout, type Zone } from "./layout";
+import { layOut } from "./layout";
+import { HEIGHT, slideAt, TABS_HEIGHT, WIDTH, zoneAt, type Layout, type Zone } from "./sheet";
+import { font } from "./strokes";
 import type { PanelModel } from "./model";
-import { font, paint } from "./paint";
+import { paint } from "./paint";
 
 /** A press that moves farther than this over the sheet scrolls it instead [px of the texture]. */
 const SCROLL_FROM_PX = 36;

@@ -25,7 +25,8 @@ export class StudyLog {
 
   /** Publishes what waits, in order; to be called again when there is a connection. */
   flush(): void {
-    while (this.published < this.events.length && this.publish(messageOf(this.events[this.published]!))) this.published++;
+    while (this.published < this.events.length && this.publish(messageOf(this.events[this.published]!)))
+      this.published++;
   }
 
   get waiting(): number {
@@ -46,7 +47,14 @@ export function eventsToCsv(events: readonly StudyEvent[]): string {
   const lines = events.flatMap(({ atMs, name, values }) => {
     const { participant = "", condition = "", ...others } = values;
     const rest = Object.entries(others);
-    return (rest.length > 0 ? rest : [["", ""]]).map(([key, value]) => [String(atMs), participant, condition, name, key!, value!]);
+    return (rest.length > 0 ? rest : [["", ""]]).map(([key, value]) => [
+      String(atMs),
+      participant,
+      condition,
+      name,
+      key!,
+      value!,
+    ]);
   });
   return [[...COLUMNS], ...lines].map((line) => line.map(cell).join(",")).join("\r\n") + "\r\n";
 }

@@ -88,7 +88,11 @@ export class StudyRun {
 
   answerSus(answer: number): void {
     this.sus[this.question] = answer;
-    this.tell("answer", SUS_ITEMS[this.question]!, { instrument: "sus", item: String(this.question + 1), value: String(answer) });
+    this.tell("answer", SUS_ITEMS[this.question]!, {
+      instrument: "sus",
+      item: String(this.question + 1),
+      value: String(answer),
+    });
   }
 
   rate(rating: number): void {
@@ -112,7 +116,9 @@ export class StudyRun {
   next(): void {
     if (!this.answered) return;
     if (this.step === "sus" && this.sus[this.question] == null) this.leaveOut();
-    const count = { sus: SUS_ITEMS.length, tlx: TLX_SCALES.length, pairs: TLX_PAIRS.length }[this.step as "sus" | "tlx" | "pairs"];
+    const count = { sus: SUS_ITEMS.length, tlx: TLX_SCALES.length, pairs: TLX_PAIRS.length }[
+      this.step as "sus" | "tlx" | "pairs"
+    ];
     if (count === undefined) return;
     if (this.question + 1 < count) this.question++;
     else if (this.step === "sus") this.ask("tlx");
@@ -164,7 +170,11 @@ export class StudyRun {
     };
     this.scores.push(scores);
     const weights = Object.entries(tlxWeights(this.pairs)).map(([key, weight]) => [`weight_${key}`, String(weight)]);
-    const values = { sus: String(scores.sus), tlx_raw: scores.rawTlx.toFixed(3), tlx_weighted: scores.weightedTlx.toFixed(3) };
+    const values = {
+      sus: String(scores.sus),
+      tlx_raw: scores.rawTlx.toFixed(3),
+      tlx_weighted: scores.weightedTlx.toFixed(3),
+    };
     this.tell("score", `Scores of ${CONDITION_TITLES[this.condition]}`, { ...values, ...Object.fromEntries(weights) });
     this.conditionIndex++;
     if (this.conditionIndex < 2) {

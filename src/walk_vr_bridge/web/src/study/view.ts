@@ -72,9 +72,18 @@ export class StudyView {
   private invitation(): Widget[] {
     const ready = optimiserSwitch(this.client.store.state.parameters) !== null;
     const [first] = orderOf(this.participant);
-    const text = "Each participant does the same tasks with the optimiser off and on, and answers the SUS and the NASA-TLX after each.";
+    const text =
+      "Each participant does the same tasks with the optimiser off and on, and answers the SUS and the NASA-TLX after each.";
     const done = this.run.step === "done" ? [note("thanks", "Thank you, this is the end.", "good")] : [];
-    const missing = ready ? [] : [note("no-switch", "The planner does not offer to switch its optimiser, so there is nothing to compare.", "warn")];
+    const missing = ready
+      ? []
+      : [
+          note(
+            "no-switch",
+            "The planner does not offer to switch its optimiser, so there is nothing to compare.",
+            "warn",
+          ),
+        ];
     return [
       ...done,
       note("about", text, "plain"),
@@ -83,7 +92,8 @@ export class StudyView {
         id: "participant",
         label: "Participant",
         value: String(this.participant),
-        step: (by) => this.change(() => (this.participant = Math.min(MOST_PARTICIPANTS, Math.max(1, this.participant + by)))),
+        step: (by) =>
+          this.change(() => (this.participant = Math.min(MOST_PARTICIPANTS, Math.max(1, this.participant + by)))),
       },
       note("order", `Begins with: ${CONDITION_TITLES[first].toLowerCase()}`, "plain"),
       ...missing,
@@ -93,7 +103,10 @@ export class StudyView {
 
   private task(): Widget[] {
     const { run } = this;
-    const head = [note("task-title", `Task ${run.taskNumber}: ${run.task.title}`, "title"), note("task", run.task.text, "plain")];
+    const head = [
+      note("task-title", `Task ${run.taskNumber}: ${run.task.title}`, "title"),
+      note("task", run.task.text, "plain"),
+    ];
     if (run.step === "task") {
       return [...head, this.press("task-begin", "Start the task", () => run.beginTask(), { tone: "primary" })];
     }
@@ -144,8 +157,8 @@ export class StudyView {
   private tlxPair(): Widget[] {
     const { run } = this;
     const chosen = run.pairs[run.question] ?? null;
-    const buttons = TLX_PAIRS[run.question]!.map((key): Button =>
-      this.press(`pair-${key}`, titleOf(key), () => run.compare(key), { pressed: chosen === key }),
+    const buttons = TLX_PAIRS[run.question]!.map(
+      (key): Button => this.press(`pair-${key}`, titleOf(key), () => run.compare(key), { pressed: chosen === key }),
     );
     return [
       note("progress", `Workload, comparison ${run.question + 1} of ${TLX_PAIRS.length}`, "title"),
@@ -173,8 +186,12 @@ export class StudyView {
   private exports(): Widget[] {
     const { events } = this.log;
     if (events.length === 0) return [];
-    const csv = button("csv", "CSV", () => this.download("study.csv", "text/csv", eventsToCsv(events)), { icon: "download" });
-    const json = button("json", "JSON", () => this.download("study.json", "application/json", eventsToJson(events)), { icon: "download" });
+    const csv = button("csv", "CSV", () => this.download("study.csv", "text/csv", eventsToCsv(events)), {
+      icon: "download",
+    });
+    const json = button("json", "JSON", () => this.download("study.json", "application/json", eventsToJson(events)), {
+      icon: "download",
+    });
     return [{ kind: "row", id: "exports", buttons: [csv, json] }];
   }
 

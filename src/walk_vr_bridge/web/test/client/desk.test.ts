@@ -200,8 +200,25 @@ describe("keypoint markers", () => {
     const { keypoints, revision } = keypointsFromMarkers(markers(7, { 3: [0, 0, 1], 4: [1, 0, 1] }, marks));
     expect(revision).toBe("7000000000");
     expect(keypoints).toMatchObject([
-      { id: 3, label: "Room 3", locked: true, start: true, end: false, dwellS: 2.5, lookAt: [1, 2, 3], unreachable: "" },
-      { id: 4, locked: false, start: false, end: true, dwellS: null, lookAt: null, unreachable: "not connected on foot" },
+      {
+        id: 3,
+        label: "Room 3",
+        locked: true,
+        start: true,
+        end: false,
+        dwellS: 2.5,
+        lookAt: [1, 2, 3],
+        unreachable: "",
+      },
+      {
+        id: 4,
+        locked: false,
+        start: false,
+        end: true,
+        dwellS: null,
+        lookAt: null,
+        unreachable: "not connected on foot",
+      },
     ]);
   });
 

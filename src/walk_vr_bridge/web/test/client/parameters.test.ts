@@ -5,7 +5,9 @@ import { readParameters, writeParameter } from "../../src/client/parameters";
 
 const FLOATS = [{ from_value: 0, to_value: null, step: 0 }];
 const ANSWERS: Record<string, unknown> = {
-  list_parameters: { result: { names: ["trajopt.clearance_m", "trajopt.solver", "trajopt.points", "x.list"], prefixes: [] } },
+  list_parameters: {
+    result: { names: ["trajopt.clearance_m", "trajopt.solver", "trajopt.points", "x.list"], prefixes: [] },
+  },
   describe_parameters: {
     descriptors: [
       { name: "a", type: 3, description: "wished distance D [m]", floating_point_range: FLOATS, integer_range: [] },
@@ -15,7 +17,12 @@ const ANSWERS: Record<string, unknown> = {
     ],
   },
   get_parameters: {
-    values: [{ type: 3, double_value: 0.42 }, { type: 4, string_value: "lbfgs" }, { type: 2, integer_value: 100 }, { type: 9 }],
+    values: [
+      { type: 3, double_value: 0.42 },
+      { type: 4, string_value: "lbfgs" },
+      { type: 2, integer_value: 100 },
+      { type: 9 },
+    ],
   },
 };
 
@@ -32,8 +39,20 @@ describe("parameters", () => {
   it("are read with range, unit and choices", async () => {
     const parameters = await readParameters(wireOf(ANSWERS), "/walk", "trajopt");
     expect(parameters).toEqual([
-      expect.objectContaining({ name: "trajopt.clearance_m", description: "wished distance D", unit: "m", min: 0, max: null, value: 0.42 }),
-      expect.objectContaining({ name: "trajopt.solver", description: "how", choices: ["lbfgs", "other"], value: "lbfgs" }),
+      expect.objectContaining({
+        name: "trajopt.clearance_m",
+        description: "wished distance D",
+        unit: "m",
+        min: 0,
+        max: null,
+        value: 0.42,
+      }),
+      expect.objectContaining({
+        name: "trajopt.solver",
+        description: "how",
+        choices: ["lbfgs", "other"],
+        value: "lbfgs",
+      }),
       expect.objectContaining({ name: "trajopt.points", type: "integer", min: 0, max: null, value: 100 }),
     ]);
   });
@@ -41,10 +60,22 @@ describe("parameters", () => {
   it("of the walker are set in every node, others in their own, and a refusal says why", async () => {
     const log: [string, unknown][] = [];
     const taken = { set_parameters_atomically: { result: { successful: true, reason: "" } } };
-    const eye = { node: "importance", name: "walker.eye_height_m", type: "double", description: "", unit: "m", min: 0, max: 3, choices: [], value: 1.6 } as const;
+    const eye = {
+      node: "importance",
+      name: "walker.eye_height_m",
+      type: "double",
+      description: "",
+      unit: "m",
+      min: 0,
+      max: 3,
+      choices: [],
+      value: 1.6,
+    } as const;
     expect(await writeParameter(wireOf(taken, log), "/walk", eye, 1.5)).toBe("");
     expect(log.map(([service]) => service.split("/")[2])).toEqual(["importance", "sequencer", "trajopt", "vr_bridge"]);
-    expect(log[0]![1]).toEqual({ parameters: [{ name: "walker.eye_height_m", value: { type: 3, double_value: 1.5 } }] });
+    expect(log[0]![1]).toEqual({
+      parameters: [{ name: "walker.eye_height_m", value: { type: 3, double_value: 1.5 } }],
+    });
     const refused = { set_parameters_atomically: { result: { successful: false, reason: "out of range" } } };
     const d = { ...eye, node: "trajopt", name: "trajopt.clearance_m" };
     expect(await writeParameter(wireOf(refused, log), "/walk", d, 99)).toBe("out of range");

@@ -52,7 +52,9 @@ describe("path", () => {
     readPath(pathBytes(WALK), path);
     expect(path.count).toBe(4);
     expect(path.revision).toBe("1700000000900000000");
-    expect(Array.from(path.positions.subarray(0, 12))).toEqual([0, 0, 1.6, 2, 0, 1.6, 4, 0, 1.6, 6, 0, 1.6].map(Math.fround));
+    expect(Array.from(path.positions.subarray(0, 12))).toEqual(
+      [0, 0, 1.6, 2, 0, 1.6, 4, 0, 1.6, 6, 0, 1.6].map(Math.fround),
+    );
     expect(Array.from(path.timeS.subarray(0, 4))).toEqual([0, 1, 2, 3]);
     expect(Array.from(path.speedMps.subarray(0, 4))).toEqual([2, 2, 2, 2]);
     expect([path.lengthM, path.durationS]).toEqual([6, 3]);

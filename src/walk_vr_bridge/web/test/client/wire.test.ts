@@ -35,7 +35,9 @@ describe("wire", () => {
     wire.start();
     expect(sockets[0]!.sent).toEqual([]);
     sockets[0]!.open();
-    expect(sockets[0]!.of("subscribe")).toMatchObject([{ topic: "/walk/path", compression: "cbor-raw", queue_length: 1 }]);
+    expect(sockets[0]!.of("subscribe")).toMatchObject([
+      { topic: "/walk/path", compression: "cbor-raw", queue_length: 1 },
+    ]);
     sockets[0]!.break();
     clock.advance(10_000);
     sockets[1]!.open();

@@ -1,14 +1,18 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { HEIGHT, layOut, lines, SIZE, slideAt, TABS_HEIGHT, WIDTH, zoneAt, type Layout, type Measure } from "../../src/panel/layout";
+import { layOut, lines } from "../../src/panel/layout";
+import { HEIGHT, SIZE, slideAt, TABS_HEIGHT, WIDTH, zoneAt, type Layout, type Measure } from "../../src/panel/sheet";
 import type { TabId } from "../../src/panel/widgets";
 import { setUp } from "./fixtures";
 
 /** A face in which each letter is as wide as in a wide one. */
 const measure: Measure = (text, size) => text.length * size * 0.58;
 
-function layoutOf(tab: TabId, prepare: (world: ReturnType<typeof setUp>) => void = () => undefined): Layout & ReturnType<typeof setUp> {
+function layoutOf(
+  tab: TabId,
+  prepare: (world: ReturnType<typeof setUp>) => void = () => undefined,
+): Layout & ReturnType<typeof setUp> {
   const world = setUp();
   prepare(world);
   world.model.open(tab);
@@ -28,7 +32,8 @@ describe.each(TABS)("the picture of the tab %s", (tab) => {
     const usable = layout.zones.filter(({ press, slide }) => press || slide);
     for (const [index, a] of usable.entries()) {
       for (const b of usable.slice(index + 1)) {
-        const apart = a.x + a.w <= b.x + 0.01 || b.x + b.w <= a.x + 0.01 || a.y + a.h <= b.y + 0.01 || b.y + b.h <= a.y + 0.01;
+        const apart =
+          a.x + a.w <= b.x + 0.01 || b.x + b.w <= a.x + 0.01 || a.y + a.h <= b.y + 0.01 || b.y + b.h <= a.y + 0.01;
         expect(apart, `${a.key} and ${b.key}`).toBe(true);
       }
     }
@@ -38,7 +43,8 @@ describe.each(TABS)("the picture of the tab %s", (tab) => {
     for (const zone of layout.zones) {
       if (zone.press) expect(zone.h, zone.key).toBeGreaterThanOrEqual(64);
       const wide = zone.look === "item" ? zone.w - 110 : zone.w;
-      for (const line of zone.lines) expect(measure(line, SIZE.small), `${zone.key}: ${line}`).toBeLessThanOrEqual(wide + 1);
+      for (const line of zone.lines)
+        expect(measure(line, SIZE.small), `${zone.key}: ${line}`).toBeLessThanOrEqual(wide + 1);
     }
     expect(Math.min(...Object.values(SIZE))).toBeGreaterThanOrEqual(24);
   });

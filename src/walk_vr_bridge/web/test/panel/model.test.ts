@@ -18,11 +18,18 @@ describe("the panel's model", () => {
   it("offers what can be done with the chosen keypoint, and does it", () => {
     const { model, store, asked } = setUp();
     store.patch("selection", { keypoint: 7 });
-    for (const id of ["lock", "start", "end", "earlier", "later", "half-way", "delete"]) find(model, "button", id).run();
+    for (const id of ["lock", "start", "end", "earlier", "later", "half-way", "delete"])
+      find(model, "button", id).run();
     find(model, "stepper", "dwell:7").step(1);
     expect(asked).toEqual([
-      ["unlock", 7], ["setStart", 7], ["setEnd", 7], ["reorder", 7, "earlier"], ["reorder", 7, "later"],
-      ["insertHalfWay", 7], ["remove", 7], ["dwell", 7, 1],
+      ["unlock", 7],
+      ["setStart", 7],
+      ["setEnd", 7],
+      ["reorder", 7, "earlier"],
+      ["reorder", 7, "later"],
+      ["insertHalfWay", 7],
+      ["remove", 7],
+      ["dwell", 7, 1],
     ]);
     store.patch("selection", { keypoint: 3 });
     find(model, "button", "start").run();
@@ -91,7 +98,11 @@ describe("the panel's model", () => {
   it("tells once of many changes at a time, and is asked no more when it is told nothing", () => {
     const { client, study } = setUp();
     const runs: (() => void)[] = [];
-    const model = new (setUp().model.constructor as typeof import("../../src/panel/model").PanelModel)(client as never, study, (run) => runs.push(run));
+    const model = new (setUp().model.constructor as typeof import("../../src/panel/model").PanelModel)(
+      client as never,
+      study,
+      (run) => runs.push(run),
+    );
     let told = 0;
     model.onChange(() => told++);
     client.store.set("keypoints", [keypoint(1)]);
@@ -104,6 +115,13 @@ describe("the panel's model", () => {
 
 describe("the stay at a keypoint", () => {
   it("steps up and down, and below walking through it is as set for all", () => {
-    expect([nextDwell(null, 1), nextDwell(null, -1), nextDwell(0, -1), nextDwell(2.5, 1), nextDwell(2.5, -1), nextDwell(3600, 1)]).toEqual([1, 0, null, 3, 2, 3600]);
+    expect([
+      nextDwell(null, 1),
+      nextDwell(null, -1),
+      nextDwell(0, -1),
+      nextDwell(2.5, 1),
+      nextDwell(2.5, -1),
+      nextDwell(3600, 1),
+    ]).toEqual([1, 0, null, 3, 2, 3600]);
   });
 });

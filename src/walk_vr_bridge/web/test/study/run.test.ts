@@ -52,7 +52,10 @@ describe("a study", () => {
     const world = begun();
     goThrough(world, 30);
     goThrough(world, 10);
-    expect(world.asked.map(([name, , value]) => [name, value])).toEqual([["setParameter", "catmull_rom"], ["setParameter", "optimised"]]);
+    expect(world.asked.map(([name, , value]) => [name, value])).toEqual([
+      ["setParameter", "catmull_rom"],
+      ["setParameter", "optimised"],
+    ]);
     // Ratings 0, 5 ... 25 by scale; the first of each pair chosen: weights 5, 4, 3, 2, 1, 0.
     const tlx = { rawTlx: 12.5, weightedTlx: (0 * 5 + 5 * 4 + 10 * 3 + 15 * 2 + 20 * 1) / 15 };
     expect(world.study.run.scores).toEqual([
@@ -65,11 +68,18 @@ describe("a study", () => {
   it("tells everything as events, from which the scores can be computed again", () => {
     const world = begun();
     goThrough(world, 30);
-    const events = world.published.map(({ status }) => ({ name: status[0]!.name, values: new Map(status[0]!.values.map(({ key, value }) => [key, value])) }));
+    const events = world.published.map(({ status }) => ({
+      name: status[0]!.name,
+      values: new Map(status[0]!.values.map(({ key, value }) => [key, value])),
+    }));
     const names = events.map(({ name }) => name);
     const count = (name: string): number => names.filter((one) => one === name).length;
-    expect([count("participant"), count("condition"), count("task"), count("answer"), count("score")]).toEqual([1, 2, 6, 31, 1]);
-    const sus = events.filter(({ values }) => values.get("instrument") === "sus").map(({ values }) => Number(values.get("value")));
+    expect([count("participant"), count("condition"), count("task"), count("answer"), count("score")]).toEqual([
+      1, 2, 6, 31, 1,
+    ]);
+    const sus = events
+      .filter(({ values }) => values.get("instrument") === "sus")
+      .map(({ values }) => Number(values.get("value")));
     expect(susScore(sus)).toBe(Number(events.find(({ name }) => name === "score")!.values.get("sus")));
     expect(events.every(({ values }) => values.get("participant") === "1" && values.get("condition"))).toBe(true);
   });
@@ -118,8 +128,15 @@ describe("a study", () => {
 
 describe("the export", () => {
   it("is CSV that keeps commas, quotes and lines, and JSON of the same", () => {
-    const event = { atMs: 5, name: "answer", message: "", values: { participant: "1", condition: "optimiser_on", note: 'a "b", c\nd' } } as const;
-    expect(eventsToCsv([event])).toBe('at_ms,participant,condition,event,key,value\r\n5,1,optimiser_on,answer,note,"a ""b"", c\nd"\r\n');
+    const event = {
+      atMs: 5,
+      name: "answer",
+      message: "",
+      values: { participant: "1", condition: "optimiser_on", note: 'a "b", c\nd' },
+    } as const;
+    expect(eventsToCsv([event])).toBe(
+      'at_ms,participant,condition,event,key,value\r\n5,1,optimiser_on,answer,note,"a ""b"", c\nd"\r\n',
+    );
     expect(JSON.parse(eventsToJson([event]))).toEqual({ study: 1, events: [event] });
   });
 });
