@@ -12,7 +12,8 @@ from pathlib import Path
 
 from walk_building.errors import WalkError
 from walk_ros.live_bench.hand import BenchError
-from walk_ros.live_bench.measure import Options, measure
+from walk_ros.live_bench.measure import measure
+from walk_ros.live_bench.options import Options
 
 _DEFAULT = Options(building="")
 

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import tempfile
 import time
@@ -20,6 +19,7 @@ from walk_building.pipeline import load_building
 from walk_ros.conversions import EditKind, Outcome
 from walk_ros.live_bench.figures import match, ratios, summary_ms, verdict
 from walk_ros.live_bench.hand import BenchError, Hand
+from walk_ros.live_bench.options import Options, Seen
 from walk_ros.live_bench.paths import colliding, flaw
 from walk_ros.live_bench.processes import Processes, take_own_domain
 from walk_ros.live_bench.strokes import stroke
@@ -35,34 +35,6 @@ _START_S = 120.0
 _ANSWER_S = 20.0
 _SETTLE_S = 0.3  # from a release's new path to the null trips: the legs of all pairs are published in between
 _SWEPT = 60  # paths that the body is swept along afterwards; a sweep takes tenths of a second
-
-
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class Options:
-    """What is measured."""
-
-    building: str  # path; empty for the sample building
-    seconds: float = 10.0  # of dragging
-    points: int = 100  # that are optimised
-    rate_hz: float = 90.0  # edits of each hand a second
-    hands: int = 1  # editors that drag at once, each a keypoint of its own
-    stroke_s: float = 3.0  # from grab to release
-    speed_mps: float = 0.6  # of a hand, on average
-    seed: int = 1
-
-
-@dataclasses.dataclass(slots=True, kw_only=True)
-class Seen:
-    """What the strokes have come to so far."""
-
-    null_s: list[float] = dataclasses.field(default_factory=list)
-    release_s: list[float] = dataclasses.field(default_factory=list)  # to the sequencer's answer
-    walked_s: list[float] = dataclasses.field(default_factory=list)  # to the path through its new tour
-    release_refused: list[str] = dataclasses.field(default_factory=list)
-    received: int = 0
-    path_bytes: int = 0
-    flaws: list[str] = dataclasses.field(default_factory=list)
-    samples: list[bytes] = dataclasses.field(default_factory=list)
 
 
 def measure(options: Options, say: Say) -> dict[str, Any]:
