@@ -11,8 +11,11 @@ from pathlib import Path
 
 from walk_bringup.sample import sample_path
 from walk_building.progress import no_progress
+from walk_plan.compare.comparison import compare
+from walk_plan.compare.page import method_figures, objective_figures
 from walk_plan.drawing.maps import draw_maps
 from walk_plan.drawing.profiles import draw_profiles
+from walk_plan.drawing.slope import draw_slope
 from walk_plan.drawing.storey_plan import draw_storey
 from walk_plan.options import PlanConfig
 from walk_plan.pipeline import make_walkthrough
@@ -22,7 +25,7 @@ FOLDER = Path(__file__).resolve().parent / "images"
 
 
 def main() -> None:
-    """Plans the sample building and draws its storeys, maps and profiles."""
+    """Plans the sample building and draws its storeys, maps and profiles, and what it is compared with."""
     FOLDER.mkdir(exist_ok=True)
     walkthrough = make_walkthrough(sample_path(), PlanConfig(), StageClock(no_progress))
     storeys = list(range(len(walkthrough.building.storeys)))
@@ -32,6 +35,11 @@ def main() -> None:
         "maps.png": draw_maps(walkthrough, storeys),
         "profiles.png": draw_profiles(walkthrough),
     }
+    comparison = compare(walkthrough)
+    figures["objectives.png"] = objective_figures(comparison)[0]
+    figures["methods.png"] = method_figures(comparison)[0]
+    if not isinstance(comparison.slope, str):
+        figures["slope.png"] = draw_slope(comparison.slope)
     for name, figure in figures.items():
         figure.savefig(FOLDER / name, dpi=110)
 

@@ -17,6 +17,7 @@ from walk_plan.clearance import LIMIT_M, SideClearance
 from walk_plan.quality import PathQuality, flat_floor, height_errors, measure, rms_jerk, turn_rates
 from walk_plan.rooms import rooms_entered
 from walk_plan.seen import seen_share
+from walk_plan.wording import setting
 from walk_trajopt.trajectory import Trajectory
 
 
@@ -166,3 +167,14 @@ def test_rooms_are_entered_in_the_order_of_the_walk(rooms: Building) -> None:
     assert len(forth) == 2
     assert rooms_entered(rooms, eyes([6.0, 2.0, 1.0, 6.0])) == forth[::-1]
     assert rooms_entered(rooms, eyes([1.0, 2.0])) == forth[:1]
+
+
+@pytest.mark.parametrize(
+    ("value", "default", "shown"),
+    [
+        (True, False, "yes"), (0.25, 1.0, "0.25"), (3, 1, "3"), ("", "x", "–"), ("auto", "", "auto"),
+        ("a" * 60, "a" * 60, "usual names"), ("b" * 60, "a" * 60, "names of one's own"),
+    ],
+)  # fmt: skip
+def test_a_setting_is_shown_as_a_client_reads_it(value: object, default: object, shown: str) -> None:
+    assert setting(value, default) == shown  # type: ignore[arg-type]

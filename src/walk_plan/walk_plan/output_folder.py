@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
+from collections.abc import Collection
 from pathlib import Path
 from types import TracebackType
 
@@ -22,11 +23,13 @@ class OutputFolder:
     Args:
         path: The folder wanted.
         marker: A file whose presence tells an earlier result from a folder of somebody's own.
+        optional: Files that not every result has; those of an earlier one go.
     """
 
-    def __init__(self, path: Path | str, marker: str) -> None:
+    def __init__(self, path: Path | str, marker: str, optional: Collection[str] = ()) -> None:
         self.path = Path(path).absolute()
         self._marker = marker
+        self._optional = optional
         self._collected: Path | None = None
 
     def __enter__(self) -> Path:
@@ -67,7 +70,8 @@ class OutputFolder:
         try:
             self.path.mkdir(exist_ok=True)
             # The marker first out and last in: a folder that is cut off half-way never looks complete.
-            (self.path / self._marker).unlink(missing_ok=True)
+            for name in (self._marker, *self._optional):
+                (self.path / name).unlink(missing_ok=True)
             for made in sorted(self._collected.iterdir(), key=lambda made: made.name == self._marker):
                 target = self.path / made.name
                 if target.is_dir() and not target.is_symlink():

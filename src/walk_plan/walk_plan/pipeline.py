@@ -15,12 +15,13 @@ from walk_importance.keypoints import Suggestion, suggest_keypoints
 from walk_importance.pipeline import compute_importance
 from walk_plan.baselines import baselines, look_targets
 from walk_plan.clearance import SideClearance
+from walk_plan.compare.comparison import compare
 from walk_plan.errors import NoWalkError
 from walk_plan.options import PlanConfig
 from walk_plan.output_folder import OutputFolder
-from walk_plan.outputs import MARKER, write_outputs
+from walk_plan.outputs import COMPARISON_WRITERS, MARKER, write_comparison, write_outputs
 from walk_plan.profile import profile
-from walk_plan.quality import PathQuality, measure
+from walk_plan.quality import Measure, PathQuality
 from walk_plan.rooms import room_visits
 from walk_plan.seen import sample_free_space
 from walk_plan.stages import StageClock
@@ -38,6 +39,8 @@ def plan_walkthrough(
     out_dir: Path | str,
     options: PlanConfig | None = None,
     progress: Progress = no_progress,
+    *,
+    comparison: bool = False,
 ) -> Walkthrough:
     """Plans a walk through a building and writes all results to a folder.
 
@@ -46,15 +49,19 @@ def plan_walkthrough(
         out_dir: Where the results go: all of them, or none if anything goes wrong.
         options: Everything a user can tune.
         progress: Told of the stages in `stages.STAGES`.
+        comparison: Whether to compare the walk with others too, and what it is without each objective.
 
     Raises:
         WalkError: The building cannot be used, nothing in it can be walked, or the folder cannot be written.
     """
-    with OutputFolder(out_dir, MARKER) as folder:
+    with OutputFolder(out_dir, MARKER, tuple(COMPARISON_WRITERS)) as folder:
         clock = StageClock(progress)
         walkthrough = make_walkthrough(building_path, options or PlanConfig(), clock)
         with clock.stage("write") as told:
             write_outputs(walkthrough, folder, told)
+        if comparison:
+            with clock.stage("compare") as told:
+                write_comparison(compare(walkthrough, told), folder)
     return walkthrough
 
 
@@ -102,11 +109,12 @@ def _assess(
     sweep = BodySweep(building.geometry, building.walker)
     beside = SideClearance(building)
     free_space = sample_free_space(building, importance_map)
-    qualities: list[PathQuality] = [measure("ours", building, sweep, beside, path.points, trajectory, free_space)]
+    measure = Measure(building, sweep, beside, free_space)
+    qualities: list[PathQuality] = [measure("ours", path.points, trajectory)]
     progress("metrics", 0.3)
     others = baselines(building, suggestion, tour, config)
     for done, walk in enumerate(others, start=1):
-        qualities.append(measure(walk.name, building, sweep, beside, walk.path, walk.trajectory, free_space))
+        qualities.append(measure(walk.name, walk.path, walk.trajectory))
         progress("metrics", 0.5 + 0.4 * done / len(others))
     return Walkthrough(
         config=config,

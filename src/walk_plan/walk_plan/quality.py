@@ -97,6 +97,20 @@ def measure(
     )
 
 
+@dataclasses.dataclass(frozen=True, slots=True)
+class Measure:
+    """Takes the figures of walks through one building, of all alike."""
+
+    building: Building
+    sweep: BodySweep
+    beside: SideClearance
+    free_space: NDArray[np.float64]
+
+    def __call__(self, name: str, path: NDArray[np.float64], trajectory: Trajectory) -> PathQuality:
+        """Returns the figures of one walk; see `measure`."""
+        return measure(name, self.building, self.sweep, self.beside, path, trajectory, self.free_space)
+
+
 def rms_jerk(trajectory: Trajectory) -> float:
     """Returns the root mean square over time of the rate at which the acceleration changes [m/s³].
 

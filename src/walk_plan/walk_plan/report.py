@@ -8,7 +8,7 @@ import base64
 import dataclasses
 import io
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import jinja2
 import matplotlib
@@ -47,12 +47,17 @@ def write_report(path: Path, walkthrough: Walkthrough, summary: dict[str, Any]) 
         walkthrough: What is reported.
         summary: Its figures as plain data (`summary.summary`).
     """
-    environment = jinja2.Environment(
+    path.write_text(
+        environment().get_template("report.html.j2").render(context(walkthrough, summary)), encoding="utf-8"
+    )
+
+
+def environment() -> jinja2.Environment:
+    """Returns what the pages are rendered with."""
+    return jinja2.Environment(
         loader=jinja2.FileSystemLoader(_TEMPLATES), autoescape=True, undefined=jinja2.StrictUndefined,
         trim_blocks=True, lstrip_blocks=True,
     )  # fmt: skip
-    page = environment.get_template("report.html.j2").render(context(walkthrough, summary))
-    path.write_text(page, encoding="utf-8")
 
 
 def context(walkthrough: Walkthrough, summary: dict[str, Any]) -> dict[str, Any]:
@@ -144,8 +149,8 @@ def _parameters(walkthrough: Walkthrough) -> list[dict[str, Any]]:
         "walker": "Walker", "load": "Reading the file", "importance": "Importance map", "keypoints": "Viewpoints",
         "tour": "Tour", "trajectory": "Path", "timing": "Clock and look",
     }  # fmt: skip
-    groups: dict[str, list[tuple[PlanOption, Any]]] = {}
+    groups: dict[str, list[tuple[PlanOption, str]]] = {}
     for option in plan_options():
         value = getattr(getattr(walkthrough.config, option.section), option.field.name)
-        groups.setdefault(option.section, []).append((option, value))
+        groups.setdefault(option.section, []).append((option, wording.setting(value, cast(Any, option.field.default))))
     return [{"name": headings[section], "options": options} for section, options in groups.items()]

@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from walk_building.building import Building
 from walk_plan.profile import storeys_along
+from walk_plan.quality import PathQuality
 from walk_plan.stages import peak_memory_mib
 from walk_plan.walkthrough import Walkthrough
 
@@ -69,7 +71,7 @@ def summary(walkthrough: Walkthrough) -> dict[str, Any]:
             "repaired": [dataclasses.asdict(stretch) for stretch in path.repaired],
             "colliding": [dataclasses.asdict(stretch) for stretch in path.colliding],
         },
-        "quality": [_quality(walkthrough, i) for i in range(len(walkthrough.qualities))],
+        "quality": [named_rooms(building, quality) for quality in walkthrough.qualities],
         "rooms": [
             {
                 "name": building.rooms[visit.room].name,
@@ -113,6 +115,17 @@ def as_plain(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def named_rooms(building: Building, quality: PathQuality) -> dict[str, Any]:
+    """Returns the figures of a walk by name, with names for the rooms it enters and for those it misses."""
+    rooms = building.rooms
+    figures = dataclasses.asdict(quality)
+    figures["rooms"] = [rooms[room].name for room in quality.rooms]
+    figures["rooms_missed"] = [
+        room.name for index, room in enumerate(rooms) if room.reachable and index not in quality.rooms
+    ]
+    return figures
+
+
 def _building(walkthrough: Walkthrough) -> dict[str, Any]:
     building = walkthrough.building
     model = building.model
@@ -152,14 +165,3 @@ def _keypoints(walkthrough: Walkthrough) -> list[dict[str, Any]]:
 
 def _in_file(walkthrough: Walkthrough, keypoint: int) -> Any:
     return walkthrough.building.to_file(walkthrough.suggestion.positions[keypoint][None, :])[0]
-
-
-def _quality(walkthrough: Walkthrough, index: int) -> dict[str, Any]:
-    quality = walkthrough.qualities[index]
-    rooms = walkthrough.building.rooms
-    figures = dataclasses.asdict(quality)
-    figures["rooms"] = [rooms[room].name for room in quality.rooms]
-    figures["rooms_missed"] = [
-        room.name for index, room in enumerate(rooms) if room.reachable and index not in quality.rooms
-    ]
-    return figures

@@ -18,6 +18,8 @@ TITLES = {
 }
 """What the report calls the walks that are compared."""
 
+_LONGEST_SETTING = 40  # letters of an option's value beside its name
+
 
 def metres(value: float, digits: int = 2) -> str:
     """Returns a length with its unit, a dash for nan."""
@@ -25,10 +27,21 @@ def metres(value: float, digits: int = 2) -> str:
 
 
 def centimetres(value: float) -> str:
-    """Returns a short length in centimetres, a dash for nan."""
-    if math.isnan(value):
-        return "–"
+    """Returns a short length in centimetres, a longer one in metres, a dash for nan."""
+    if math.isnan(value) or value >= 2.0:
+        return metres(value, 1)
     return f"{100 * value:.1f} cm" if value < 0.1 else f"{100 * value:.0f} cm"
+
+
+def setting(value: bool | float | str, default: bool | float | str) -> str:
+    """Returns the value of an option as a client reads it: long patterns are for programs and stand in report.json."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, str):
+        return f"{value:g}"
+    if len(value) > _LONGEST_SETTING:
+        return "usual names" if value == default else "names of one's own"
+    return value or "–"
 
 
 def duration(seconds: float) -> str:

@@ -83,8 +83,9 @@ def _with_plan_options(command: click.Command) -> click.Command:
 @click.command(cls=SectionedCommand, short_help=COMMANDS["plan"])
 @click.argument("building", type=click.Path(path_type=Path))
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder for the results.")
+@click.option("--compare", is_flag=True, help="Write compare.html and compare.json too: the walk without its parts.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
-def plan(building: Path, out: Path, quiet: bool, **values: Any) -> int:
+def plan(building: Path, out: Path, compare: bool, quiet: bool, **values: Any) -> int:
     """Turn BUILDING into a collision-free, timed, recorded walkthrough.
 
     Writes tour.mcap, report.json, report.html, trajectory.csv and walkthrough.glb.
@@ -102,7 +103,7 @@ def plan(building: Path, out: Path, quiet: bool, **values: Any) -> int:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     started = time.monotonic()
     with _shown_progress(quiet) as progress:
-        walkthrough = plan_walkthrough(building, out, config, progress)
+        walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare)
     for line in summary_lines(walkthrough, out, time.monotonic() - started):
         print(line)
     return 0
@@ -153,7 +154,7 @@ class _StageBars:
     def __call__(self, stage: str, fraction: float) -> None:
         if stage not in self._tasks:
             number = STAGES.index(stage) + 1 if stage in STAGES else len(self._tasks) + 1
-            self._tasks[stage] = self._bars.add_task(f"{number}/{len(STAGES)} {stage}", total=1.0)
+            self._tasks[stage] = self._bars.add_task(f"{number}/{max(number, len(STAGES))} {stage}", total=1.0)
         self._bars.update(self._tasks[stage], completed=fraction)
 
 

@@ -62,7 +62,8 @@ def draw_storey(walkthrough: Walkthrough, storey: int) -> Figure:
     aside = (wide / inches - width) / 2
     style.plain_map(axes, low - [aside, 0.0], high + [aside, 0.0])
     tinted_floor(axes, building, storey)
-    walls = _draw_walls(axes, building, storey)
+    low_cut, walls = cut_storey(building, storey)
+    draw_cut(axes, low_cut, walls)
     walk = storey_walk(walkthrough, storey)
     _draw_walk(axes, walk)
     board = LabelBoard(axes)
@@ -98,18 +99,22 @@ def _runs(mask: NDArray[np.bool_]) -> list[tuple[int, int]]:
     return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]
 
 
-def _draw_walls(axes: Axes, building: Building, storey: int) -> Section:
+def cut_storey(building: Building, storey: int) -> tuple[Section, Section]:
+    """Returns what a storey's plan shows of the building: the section through furniture, and that through walls."""
     floor = building.storeys[storey].elevation_m
     solid = [part for part in building.model.parts if part.kind.startswith(_SOLID)]
     low = _near(building, storey, cut(building.geometry, floor + FURNITURE_HEIGHT_M))
-    walls = _near(building, storey, cut(building.geometry, floor + CUT_HEIGHT_M, solid))
-    _draw_lines(axes, low, style.HAIR, 0.5, 2)
+    return low, _near(building, storey, cut(building.geometry, floor + CUT_HEIGHT_M, solid))
+
+
+def draw_cut(axes: Axes, low: Section, walls: Section, width_pt: float = 0.6) -> None:
+    """Draws a storey's sections, lines as wide as asked for."""
+    _draw_lines(axes, low, style.HAIR, 0.8 * width_pt, 2)
     for area in walls.solids:
         rings = [Path(np.asarray(ring.coords), closed=True) for ring in (area.exterior, *area.interiors)]
         patch = PathPatch(Path.make_compound_path(*rings), facecolor=style.SOLID_INK, edgecolor="none", zorder=3)
         axes.add_patch(patch)
-    _draw_lines(axes, walls, style.INK, 0.6, 3)
-    return walls
+    _draw_lines(axes, walls, style.INK, width_pt, 3)
 
 
 def _near(building: Building, storey: int, section: Section) -> Section:
