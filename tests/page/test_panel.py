@@ -32,14 +32,12 @@ def choose(desk, number):
 def test_lock_start_end_and_order_of_the_chosen_keypoint(desk):
     number = desk.ids()[1]
     choose(desk, number)
-    for button, field in (("lock", "locked"), ("end", "end"), ("start", "start")):
+    for button, field in (("end", "end"), ("start", "start")):
         desk.press(button)
         desk.page.until(f"desk.keypoint({number}).{field}", field)
     assert desk.ids()[0] == number
     desk.press("start")
     desk.page.until(f"!desk.keypoint({number}).start", "that the start is free")
-    desk.press("lock")
-    desk.page.until(f"!desk.keypoint({number}).locked", "that it is unlocked")
     place = desk.ids().index(number)
     desk.press("later")
     desk.page.until(f"desk.state.keypoints.findIndex(({{ id }}) => id === {number}) === {place + 1}", "the new order")

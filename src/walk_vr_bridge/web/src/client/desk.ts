@@ -12,7 +12,7 @@ import type { Store } from "./store";
 import type { Clock } from "./wire";
 
 const REFUSALS_KEPT = 8;
-/** The same refusal of the same keypoint within this time is one: a drag along a wall is refused 90 times a second. */
+/** Refusals of a keypoint on its way within this time are one: a drag along a wall is refused 90 times a second. */
 const SAME_REFUSAL_MS = 2500;
 
 export class EditDesk {
@@ -85,7 +85,7 @@ export class EditDesk {
     // A grab or a drag: the keypoint stays in the hand, where it may come to a better place, unless it is not ours.
     const id = result.keypoint;
     const shown = this.store.state.keypoints.find((keypoint) => keypoint.id === id);
-    this.refuse(id, shown?.position ?? null, result.reason);
+    this.refuse(id, shown?.position ?? null, result.reason, true);
   }
 
   /** Sends what waits, takes hold again of what is held. */
@@ -94,13 +94,16 @@ export class EditDesk {
     this.outbox.reconnected();
   }
 
-  refuse(keypoint: number | null, place: Vec3 | null, reason: string): void {
+  refuse(keypoint: number | null, place: Vec3 | null, reason: string, preview = false): void {
     const atMs = this.clock.now();
     const { refusals } = this.store.state;
     const last = refusals.at(-1);
-    if (last?.keypoint === keypoint && last.reason === reason && atMs - last.atMs < SAME_REFUSAL_MS) return;
+    const recent = last && last.keypoint === keypoint && atMs - last.atMs < SAME_REFUSAL_MS;
+    if (recent && (preview || last.reason === reason)) return;
     const refusal = { serial: ++this.serial, keypoint, place, reason, atMs };
-    this.store.set("refusals", [...refusals, refusal].slice(-REFUSALS_KEPT));
+    // The word about a release takes the place of what was said on the way there.
+    const others = recent && keypoint !== null ? refusals.slice(0, -1) : refusals;
+    this.store.set("refusals", [...others, refusal].slice(-REFUSALS_KEPT));
   }
 
   /** A keypoint that is only moved keeps its look: a message without one would turn it ahead. */
