@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -179,6 +180,30 @@ def test_the_manual_mode_is_a_spline_through_the_keypoints_that_says_where_it_co
     moved = live.move(2, np.array([2.0, 1.5, 1.6]))
     assert moved.accepted and moved.path.colliding == () and near(moved.path, 2, (2, 1.5)) < 1e-9
     np.testing.assert_array_equal(live.take_back().points, path.points)
+
+
+def test_a_path_that_starts_again_is_the_one_that_was_shown(hall: Building, tmp_path: Path) -> None:
+    live = live_path(hall, TrajoptConfig(), tmp_path)
+    live.follow(revision(PLACES))
+    live.move(2, np.array([6.5, 2.4, 1.6]))
+    last = revision({**PLACES, 2: (6.5, 2.4)})
+    shown = live.follow(last)
+    again = live_path(hall, TrajoptConfig(), tmp_path)
+    np.testing.assert_array_equal(again.follow(last).points, shown.points)
+    assert again.path().cost == shown.cost
+    beside = again.move(2, np.array([6.2, 2.2, 1.6])).path, live.move(2, np.array([6.2, 2.2, 1.6])).path
+    np.testing.assert_array_equal(beside[0].points, beside[1].points)
+    cold = live_path(hall, TrajoptConfig()).follow(last)
+    other = live_path(hall, TrajoptConfig(weight_length=0.02), tmp_path).follow(last)
+    assert not np.array_equal(cold.points, shown.points) and not np.array_equal(other.points, shown.points)
+
+
+def test_a_kept_path_that_is_damaged_is_solved_again(hall: Building, tmp_path: Path) -> None:
+    cold = live_path(hall, TrajoptConfig(), tmp_path).follow(revision(PLACES))
+    (file,) = tmp_path.iterdir()
+    file.write_bytes(file.read_bytes()[:1000])
+    again = live_path(hall, TrajoptConfig(), tmp_path).follow(revision(PLACES))
+    np.testing.assert_array_equal(again.points, cold.points)
 
 
 @pytest.mark.parametrize("mode", ["optimised", "b_spline"])

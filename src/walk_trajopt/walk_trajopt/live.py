@@ -6,13 +6,16 @@ from __future__ import annotations
 
 import abc
 import dataclasses
+import hashlib
 from collections import OrderedDict
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Building
 from walk_trajopt.config import TrajoptConfig
+from walk_trajopt.kept import Kept
 from walk_trajopt.optimiser import EditOutcome, Optimiser
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.spline import spline_path
@@ -36,6 +39,12 @@ class Revision:
         """Equal for revisions that have the same path."""
         locked = self.locked & set(self.ids)
         return self.ids, locked, self.keypoints.tobytes(), self.polyline.tobytes()
+
+    @property
+    def digest(self) -> str:
+        """A text that tells revisions apart as `key` does."""
+        head = repr((self.ids, sorted(self.locked & set(self.ids)), self.keypoints.shape, self.polyline.shape))
+        return hashlib.sha256(head.encode() + self.keypoints.tobytes() + self.polyline.tobytes()).hexdigest()
 
     @property
     def pinned(self) -> NDArray[np.bool_]:
@@ -85,9 +94,10 @@ class LivePath(abc.ABC):
 class OptimisedWalk(LivePath):
     """The optimised, checked path. The states of earlier revisions are kept: undo brings them back bit for bit."""
 
-    def __init__(self, building: Building, config: TrajoptConfig) -> None:
+    def __init__(self, building: Building, config: TrajoptConfig, folder: Path | None = None) -> None:
         super().__init__(building, config)
         self._optimiser: Optimiser | None = None
+        self._kept = None if folder is None else Kept(folder, building.hash, config)
         self._known: OrderedDict[tuple[object, ...], State] = OrderedDict()
 
     @property
@@ -120,6 +130,9 @@ class OptimisedWalk(LivePath):
         self._revision = revision
         if key not in self._known:
             self._remember(key)
+        if self._kept and (before is None or key != before.key):
+            assert self._optimiser is not None
+            self._kept.save(revision.digest, self._known[key], self._optimiser.spacing_m)
         return self.path()
 
     def take_back(self) -> OptimisedPath:
@@ -137,8 +150,10 @@ class OptimisedWalk(LivePath):
         optimiser = Optimiser(
             self._building, revision.polyline, revision.keypoints, self._config, locked=revision.pinned
         )
-        optimiser.solve()
-        optimiser.check()
+        kept = self._kept.load(revision.digest) if self._kept else None
+        if kept is None or not optimiser.restore(*kept):
+            optimiser.solve()
+            optimiser.check()
         self._optimiser = optimiser
 
     def _remember(self, key: tuple[object, ...]) -> None:
@@ -185,7 +200,14 @@ class ManualWalk(LivePath):
         return EditOutcome(path=self._path, accepted=True, reason="")
 
 
-def live_path(building: Building, config: TrajoptConfig) -> LivePath:
-    """Returns a path in the mode of the config, which follows its first revision next."""
-    kind = OptimisedWalk if config.mode == "optimised" else ManualWalk
-    return kind(building, config)
+def live_path(building: Building, config: TrajoptConfig, folder: Path | None = None) -> LivePath:
+    """Returns a path in the mode of the config, which follows its first revision next.
+
+    Args:
+        building: Where to walk.
+        config: The mode, the problem, its solver.
+        folder: Where the optimised path of the last revision is kept; None for nowhere.
+    """
+    if config.mode == "optimised":
+        return OptimisedWalk(building, config, folder)
+    return ManualWalk(building, config)

@@ -7,6 +7,7 @@ from __future__ import annotations
 import dataclasses
 import sys
 from collections import deque
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,7 @@ from walk_ros.node import WalkNode
 from walk_ros.results import path_bytes, path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
+from walk_trajopt.kept import default_state_dir
 from walk_trajopt.live import LivePath, Revision, live_path
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.targets import NOWHERE, look_targets
@@ -64,6 +66,7 @@ class TrajoptNode(WalkNode):
 
     def __init__(self) -> None:
         super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
+        self.declare_text("state_dir", str(default_state_dir()), "folder where the last path is kept; empty keeps none")
         self._newest: dict[str, Poses | LabelledKeypoints | TimedPath] = {}
         self._edits: deque[tuple[KeypointEdit, float]] = deque()
         self._holds = Holds()
@@ -94,12 +97,16 @@ class TrajoptNode(WalkNode):
         undo, self._undo = self._undo, False
         if (plan.stamp_ns, config) != self._solved_for[:2]:
             if self._live is None or config != self._solved_for[1]:
-                self._live = live_path(building, config)
+                self._live = live_path(building, config, self._folder())
             self._follow(self._live, plan, timing)
         elif self._live is not None and (undo or timing != self._solved_for[2]):
             self._publish(self._live.take_back() if undo else self._live.path(), timing)
         self._solved_for = (plan.stamp_ns, config, timing)
         self._follow_edits(building, plan, timing)
+
+    def _folder(self) -> Path | None:
+        folder = str(self.get_parameter("state_dir").value)
+        return Path(folder) if folder else None
 
     def forget(self) -> None:
         """Drops the path through another building; the tour is kept, for the sequencer may have been faster."""

@@ -49,6 +49,7 @@ class Optimiser:
 
     Attributes:
         config: As given.
+        spacing_m: h, the mean distance between points of the tour that was solved as a whole.
         state: The solution; taking back an earlier one undoes what came after it.
         watch: Told of each problem that is solved, where it started and at what cost it ended; for benchmarks.
     """
@@ -76,7 +77,7 @@ class Optimiser:
         tour = tour_of(polyline)
         n = point_count(tour.length_m, self.config)
         self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
-        self._spacing_m = tour.length_m / (n - 1)
+        self.spacing_m = tour.length_m / (n - 1)
         self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
         # The points that were solved last and their problem, which knows much about the geometry around them.
         self._solved: tuple[NDArray[np.float64], Problem] | None = None
@@ -97,6 +98,14 @@ class Optimiser:
             self._solution = min(self._solution, other, key=lambda solution: solution.cost)
         solved = dataclasses.replace(start, x=self._solution.x)
         self.state = dataclasses.replace(solved, terms=self._terms(solved))
+
+    def restore(self, state: State, spacing_m: float) -> bool:
+        """Goes on from a state that was kept; returns whether it may, which is where its path still passes."""
+        window = float(state.arc_m[0]), float(state.arc_m[-1])
+        if colliding(state.way, self._check, window):
+            return False
+        self.state, self.spacing_m = state, spacing_m
+        return True
 
     def check(self) -> OptimisedPath:
         """Sweeps the body along the whole path, repairs it where it does not pass, and returns it."""
@@ -136,7 +145,7 @@ class Optimiser:
             return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
         legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
         radius = float(self._radii(eye)[0])
-        moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self._spacing_m)
+        moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self.spacing_m)
         first, last = moved.window(keypoint)
         solution = self._solve(moved, first, last)
         checked = self._checked(dataclasses.replace(moved, x=solution.x), first, last)
@@ -164,7 +173,7 @@ class Optimiser:
             changed, and the whole problem had better be solved.
         """
         tour, stops = tour_of(polyline), as_polyline_points("keypoints", keypoints, at_least=0)
-        n = max(round(tour.length_m / self._spacing_m), len(stops)) + 1
+        n = max(round(tour.length_m / self.spacing_m), len(stops)) + 1
         fresh = self._fresh(tour, stops, locked, n)
         if not (ends_at_keypoints(fresh) and ends_at_keypoints(self.state)):
             return False
@@ -239,7 +248,7 @@ class Optimiser:
         inside = (state.keypoint_index >= low) & (state.keypoint_index < high)
         return Setting(
             start=state.start[low:high],
-            spacing_m=self._spacing_m,
+            spacing_m=self.spacing_m,
             keypoints=state.keypoints[inside],
             keypoint_index=state.keypoint_index[inside] - low,
             keypoint_radius_m=state.radius_m[inside],
