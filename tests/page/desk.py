@@ -35,10 +35,8 @@ class Desk:
         self.page = page
         page.until("window.walk?.stage.models && walk.client.store.state.path.count > 0", "building and path")
         page.js(_SETUP)
-        page.until(
-            "desk.state.parameters.some(({ node }) => node === 'trajopt') && desk.state.session.role === 'editor'",
-            "the parameters",
-        )
+        told = "desk.state.parameters.some(({ node }) => node === 'trajopt')"
+        page.until(f"{told} && desk.state.session.role === 'editor'", "the parameters")
 
     def look(self, view):
         """Looks another way by the button, and waits until the camera stands still."""
