@@ -55,11 +55,10 @@ class Renderer:
         self._plotter = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
         self._plotter.set_background(_SKY_LOW, top=_SKY_HIGH)
         self._plotter.add_light(pyvista.Light(light_type="headlight", intensity=0.62))
-        for direction, intensity in (((0.4, 0.3, 1.0), 0.34), ((-0.5, -0.8, 0.3), 0.22), ((0.2, 0.1, -1.0), 0.22)):
+        for direction, intensity in (((0.4, 0.3, 1.0), 0.34), ((-0.5, -0.8, 0.3), 0.22), ((0.2, 0.1, -1.0), 0.5)):
             self._plotter.add_light(pyvista.Light(position=direction, light_type="scene light", intensity=intensity))
         for name, triangles in kinds(model):
             self._add(name, model.vertices, triangles)
-        self._plotter.enable_anti_aliasing("fxaa")
         camera = self._plotter.camera
         camera.view_angle = float(np.rad2deg(config.field_of_view_rad))
         self._far_m = max(10.0, 2.0 * float(np.linalg.norm(np.ptp(model.vertices, axis=0))))
@@ -82,6 +81,7 @@ class Renderer:
             camera.focal_point = tuple(position + look)
             camera.up = (0.0, 0.0, 1.0)
             camera.clipping_range = (_NEAR_M, self._far_m)
+            self._plotter.render()
             yield np.asarray(self._plotter.screenshot(return_img=True))
 
     def __enter__(self) -> Self:
