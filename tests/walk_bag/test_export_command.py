@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""`./walk export` as a user calls it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from scenes import two_rooms
+
+from walk_bag import BagWriter
+from walk_bag.walkthrough import bag_topic
+from walk_bringup.cli.main import main
+from walk_ros import conversions as c
+from walk_ros.raw import to_bytes
+
+STAMP = 1_700_000_000_000_000_000
+
+
+@pytest.fixture
+def bag(tmp_path: Path) -> Path:
+    """Two seconds along x."""
+
+    class Walk:
+        t_s = np.array([0.0, 2.0])
+        positions = np.array([[1.0, 2.0, 1.6], [3.0, 2.0, 1.6]])
+        quat_xyzw = np.array([[0.0, 0.0, 0.0, 1.0]] * 2)
+        velocities = accelerations = np.zeros((2, 3))
+
+    with BagWriter(tmp_path / "tour.mcap") as writer:
+        writer.write(bag_topic("trajectory"), STAMP, to_bytes(c.trajectory_to_msg(Walk(), STAMP)))
+    return tmp_path / "tour.mcap"
+
+
+def rows(path: Path) -> np.ndarray:
+    return np.loadtxt(path, delimiter=",", skiprows=1)
+
+
+def test_without_a_building_it_says_where_positions_are(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["export", str(bag), "--to", "csv"]) == 0
+    assert "near the origin; --building FILE" in capsys.readouterr().out
+    assert rows(bag.with_name("tour-csv.csv"))[-1, :4] == pytest.approx([2.0, 3.0, 2.0, 1.6])
+
+
+def test_the_report_beside_the_bag_tells_where_the_building_stands(bag: Path) -> None:
+    facts = {"building": {"file": "rooms.ply", "offset_m": [100.0, 200.0, 300.0]}}
+    bag.with_name("report.json").write_text(json.dumps(facts))
+    assert main(["export", str(bag), "--to", "csv", "--out", str(bag.with_name("x.csv"))]) == 0
+    assert rows(bag.with_name("x.csv"))[0, 1:4] == pytest.approx([101.0, 202.0, 301.6])
+
+
+def test_the_building_that_is_named_stands_beside_the_camera(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = bag.with_name("rooms.ply")
+    trimesh.util.concatenate(two_rooms()).export(file)
+    assert main(["export", str(bag), "--to", "glb", "--building", str(file)]) == 0
+    assert "note" not in capsys.readouterr().out
+    assert "Building" in trimesh.load(bag.with_name("tour-glb.glb")).graph.nodes_geometry
+
+
+def test_another_building_than_the_planned_one_is_noticed(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = bag.with_name("rooms.ply")
+    trimesh.util.concatenate(two_rooms()).export(file)
+    facts = {"building": {"file": "rooms.ply", "content_hash": "other", "offset_m": [0.0, 0.0, 0.0]}}
+    bag.with_name("report.json").write_text(json.dumps(facts))
+    assert main(["export", str(bag), "--to", "glb", "--building", str(file)]) == 0
+    assert "is not what the walk was planned in" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--to", "mp4"], "--building"),
+        (["--to", "csv", "--from", "viewpoint"], "holds no viewpoint"),
+        (["--to", "keypoints-json"], "holds none"),
+        (["--to", "blender", "--fps", "0"], "fps is 0"),
+        (["--to", "glb", "--building", "missing.ifc"], "missing.ifc"),
+        (["--to", "avi"], "is not one of"),
+    ],
+)
+def test_what_cannot_be_is_one_sentence_and_exit_code_2(
+    bag: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+) -> None:
+    assert main(["export", str(bag), *arguments]) == 2
+    message = capsys.readouterr().err
+    assert said in message and message.startswith("walk: ") and message.count("\n") == 1
+    assert [path.name for path in bag.parent.iterdir()] == ["tour.mcap"]
