@@ -28,15 +28,16 @@ OVERRUN_S = 10.0
 
 @dataclasses.dataclass(slots=True)
 class Bucket:
-    """Tokens that fill up at a rate: allows a burst of twice what a second brings."""
+    """Tokens that fill up at a rate, and how many it holds: that many may be taken at once."""
 
     rate: float  # tokens a second
+    size: float = 0.0  # 0: twice what a second brings
     level: float = -1.0
     at_s: float = 0.0
 
     def take(self, count: float, now_s: float) -> bool:
         """Takes tokens out; returns whether there were enough."""
-        full = 2 * self.rate
+        full = self.size or 2 * self.rate
         self.level = full if self.level < 0 else min(full, self.level + (now_s - self.at_s) * self.rate)
         self.at_s = now_s
         if self.level < count:
@@ -51,7 +52,7 @@ class Intake:
     def __init__(self) -> None:
         self._messages = Bucket(240.0)
         self._bytes = Bucket(2.0**20)
-        self._errors = Bucket(MAX_ERRORS / ERROR_WINDOW_S, level=float(MAX_ERRORS))
+        self._errors = Bucket(MAX_ERRORS / ERROR_WINDOW_S, size=MAX_ERRORS)
         self._over_since_s = 0.0
         self._last_over_s = float("-inf")
         self._told_s = float("-inf")
