@@ -119,7 +119,8 @@ export function choiceOf(): Shown<w.Choice> {
 
 export function sliderOf(): Shown<w.Slider> {
   const root = element("label", "slider");
-  const [label, value, range] = [element("span", "label"), element("output"), element("input")];
+  // The value is no <output>: the label would belong to it, as the first of its controls.
+  const [label, value, range] = [element("span", "label"), element("span", "value"), element("input")];
   root.append(label, value, range);
   Object.assign(range, { type: "range", min: "0", max: "1", step: "any" });
   let now: w.Slider;
@@ -153,6 +154,7 @@ export function sliderOf(): Shown<w.Slider> {
       root.dataset.id = widget.id;
       root.title = widget.hint ?? "";
       range.disabled = widget.disabled ?? false;
+      range.setAttribute("aria-label", widget.label);
       setText(label, widget.label);
       if (sliding) return;
       range.valueAsNumber = widget.position;

@@ -14,6 +14,7 @@ export function walkSections(state: State, actions: Actions, timeS: number): Sec
     { id: "playback", title: "Walkthrough", widgets: playbackWidgets(state, actions, timeS) },
     { id: "place", title: "", widgets: [placeChoice(state, actions)] },
     { id: "comfort", title: "Comfort in the headset", widgets: comfortWidgets(state.settings, actions) },
+    { id: "hand", title: "Main hand", widgets: [handChoice(state.settings, actions)] },
   ];
 }
 
@@ -88,16 +89,19 @@ function comfortWidgets(settings: SettingsState, actions: Actions): Widget[] {
     toggle("fade", "Fade at jumps", "Goes dark for a moment"),
     toggle("snapTurn", "Turn in steps", "Off: turn smoothly"),
     toggle("teleport", "Move by pointing", "Off: walk with the stick"),
-    {
-      kind: "choice",
-      id: "hand",
-      label: "Main hand",
-      options: [
-        { value: "left", label: "Left" },
-        { value: "right", label: "Right" },
-      ],
-      value: settings.hand,
-      choose: (value) => actions.set({ hand: value as Hand }),
-    },
   ];
+}
+
+function handChoice(settings: SettingsState, actions: Actions): Widget {
+  return {
+    kind: "choice",
+    id: "hand",
+    label: "Main hand",
+    options: [
+      { value: "left", label: "Left" },
+      { value: "right", label: "Right" },
+    ],
+    value: settings.hand,
+    choose: (value) => actions.set({ hand: value as Hand }),
+  };
 }
