@@ -421,3 +421,7 @@ def test_names_of_the_bridge():
     assert same_origin(None, "localhost", tls=True)
     assert same_origin("HTTPS://Localhost:1", "localhost:1", tls=True)
     assert not same_origin("https://localhost:1", "localhost:2", tls=True)
+    # Behind a proxy that has the certificate.
+    assert same_origin("https://study.example.org", "study.example.org", tls=False)
+    assert not same_origin("https://evil.example.org", "study.example.org", tls=False)
+    assert not same_origin("ftp://study.example.org", "study.example.org", tls=False)

@@ -42,4 +42,10 @@ class Hosts:
 
 def same_origin(origin: str | None, host: str, *, tls: bool) -> bool:
     """Returns whether an Origin header, if there is one, is the page that this Host serves."""
-    return origin is None or origin.lower() == f"{'https' if tls else 'http'}://{host.lower()}"
+    if origin is None:
+        return True
+    scheme, _, rest = origin.lower().partition("://")
+    # A bridge without TLS that is reached by a name of the user's stands behind a proxy that has it.
+    local = host.lower().rsplit(":", 1)[0] in ("localhost", "127.0.0.1", "[::1]")
+    schemes = ("https",) if tls else ("http",) if local else ("http", "https")
+    return scheme in schemes and rest == host.lower()
