@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A keypoint asked for "near here", over real DDS; the tests of this file follow each other."""
 
+import dataclasses
 import time
 
 import numpy as np
@@ -33,8 +34,11 @@ def keypoints_of(observer):
     return c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
 
 
-def ask(observer, position, keypoint=-1, stamp_ns=None, client="anna"):
-    """Asks for a keypoint near a place; returns all answers until a moment after the first."""
+def ask(observer, position, keypoint=-1, stamp_ns=None, client="anna", recorded=None):
+    """Asks for a keypoint near a place; returns all answers until a moment after the first.
+
+    With a position `recorded`, the insertion there follows at once, as when both come out of a bag.
+    """
     observer.sent += 1
     edit = c.KeypointEdit(
         kind=c.EditKind.CHANGE,
@@ -48,6 +52,9 @@ def ask(observer, position, keypoint=-1, stamp_ns=None, client="anna"):
     observer.wait(lambda: observer.edits.get_subscription_count(), "the graph to hear edits")
     heard = len(observer.heard["edit_results"])
     observer.edits.publish(c.edit_to_msg(edit))
+    if recorded is not None:
+        inserted = dataclasses.replace(edit, change=c.Change.INSERT, position=np.asarray(recorded, float))
+        observer.edits.publish(c.edit_to_msg(inserted))
 
     def answers():
         found = map(c.edit_result_from_msg, observer.heard["edit_results"][heard:])
@@ -96,6 +103,16 @@ def test_it_comes_behind_the_keypoint_named(running, observer):
         lambda: int(answer.keypoint) in keypoints_of(observer).ids and keypoints_of(observer), "the new keypoint"
     )
     assert after.ids.index(int(answer.keypoint)) == after.ids.index(behind) + 1
+
+
+def test_played_back_with_the_insertion_it_became_it_is_one_keypoint(running, observer):
+    before = keypoints_of(observer).ids
+    (answer,) = ask(observer, [6.0, 3.0, 0.0], recorded=[6.5, 2.5, 1.6])
+    assert answer.outcome is c.Outcome.ACCEPTED
+    (later,) = ask(observer, [9.0, 3.4, 0.0])
+    new = {int(answer.keypoint), int(later.keypoint)}
+    after = observer.wait(lambda: (k := keypoints_of(observer)) and new <= set(k.ids) and k, "the new keypoints")
+    assert set(after.ids) - set(before) == new
 
 
 @pytest.mark.parametrize(

@@ -108,9 +108,8 @@ class EditDesk:
         if edit.change is Change.INSERT_NEAR:
             self._near.wait_for(edit)
             return
-        if edit.change is Change.INSERT:
-            self._near.answered(edit.client_id, edit.stamp_ns)
-        self._queue(edit, from_editor)
+        if edit.change is not Change.INSERT or not self._near.inserts_again(edit):
+            self._queue(edit, from_editor)
 
     def _refuse_near(self, edit: KeypointEdit, reason: str) -> None:
         name = str(edit.keypoint) if edit.keypoint >= 0 else ""
