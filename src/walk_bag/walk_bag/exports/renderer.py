@@ -71,7 +71,7 @@ class Renderer:
         self._plotter.add_mesh(mesh, color=colour, opacity=0.35 if glass else 1.0, ambient=0.18, specular=0.0)
         edges = mesh.extract_feature_edges(_EDGE_DEG, non_manifold_edges=False, manifold_edges=False)
         if edges.n_cells:
-            self._plotter.add_mesh(edges, color=(0.25, 0.25, 0.27), line_width=1.0, lighting=False, opacity=0.6)
+            self._plotter.add_mesh(edges, color=(0.25, 0.25, 0.27), line_width=1.0, lighting=False)
 
     def pictures(self, positions: NDArray[np.float64], quat_xyzw: NDArray[np.float64]) -> Iterator[NDArray[np.uint8]]:
         """Yields a picture (height, width, 3) for each eye position (n, 3) and orientation (n, 4)."""
