@@ -5,6 +5,7 @@
 import "./desktop.css";
 import type { Camera } from "three";
 import type { Client } from "../client/client";
+import { PathMeasurer } from "../client/measure";
 import { DomPanel } from "../panel/dom";
 import { PanelModel } from "../panel/model";
 import { element } from "../panel/element";
@@ -27,6 +28,9 @@ import { download } from "./save";
 import { Stroll } from "./stroll";
 import { Toasts } from "./toasts";
 import type { Viewpoint, ViewpointName } from "./viewpoint";
+
+/** What measuring along the path may take of a frame. */
+const MEASURE_MS = 3;
 
 export class Desktop {
   readonly panel: PanelModel;
@@ -84,6 +88,8 @@ export class Desktop {
       help: showHelp,
     });
     this.followStore(canvas);
+    const measurer = new PathMeasurer(client.store, () => stage.models?.bvh ?? null);
+    view.onFrame(() => measurer.step(MEASURE_MS));
     view.onFrame((seconds) => this.frame(seconds, toasts));
     this.show("orbit");
   }

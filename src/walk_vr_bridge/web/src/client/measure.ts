@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The walkthrough planner's authors
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Height over the floor and clearance along the path, measured by rays in the building that the page shows, a little each
+ * frame. What the bridge measures itself, where it does, is exact and goes before; between two rays something thin can be
+ * missed here, and glass and doors are no obstacles.
+ */
+
+import type { PathState } from "./state";
+import type { Store } from "./store";
+
+/** What casts a ray: how far it goes, Infinity where it hits nothing within `most`. */
+export interface Caster {
+  cast(
+    ox: number,
+    oy: number,
+    oz: number,
+    dx: number,
+    dy: number,
+    dz: number,
+    least?: number,
+    most?: number,
+  ): { readonly distance: number };
+}
+
+const DIRECTIONS = 12;
+/** Heights over the floor at which the body is measured [m]; the highest is the eye's. */
+const BODY_M = [0.35, 0.95] as const;
+/** Farther than this nothing is measured: it is far enough [m]. */
+export const FAR_M = 0.62;
+const FLOOR_MOST_M = 4;
+const ROWS_A_TURN = 16;
+
+export class PathMeasurer {
+  private revision = "";
+  private row = 0;
+
+  constructor(
+    private readonly store: Store,
+    private readonly caster: () => Caster | null,
+    private readonly now: () => number = () => performance.now(),
+  ) {}
+
+  /** Goes on for a few milliseconds where the path is coloured by what is not known yet. Allocates nothing. */
+  step(budgetMs: number): void {
+    const { path, settings, building } = this.store.state;
+    const caster = this.caster();
+    const wanted = settings.pathColour !== "plain" && settings.pathColour !== "speed";
+    if (!wanted || !caster || !building || path.count === 0) return;
+    if (path.revision !== this.revision) this.begin(path);
+    if (this.row >= path.count) return;
+    const { radiusM } = building.walker;
+    const end = this.now() + budgetMs;
+    while (this.row < path.count && this.now() < end) {
+      const stop = Math.min(path.count, this.row + ROWS_A_TURN);
+      for (; this.row < stop; this.row++) measureRow(path, this.row, caster, radiusM);
+    }
+    if (this.row >= path.count) this.store.touch("path");
+  }
+
+  /** What the bridge has measured is not measured again. */
+  private begin(path: PathState): void {
+    this.revision = path.revision;
+    this.row = Number.isNaN(path.clearanceM[0]) ? 0 : path.count;
+  }
+}
+
+function measureRow(path: PathState, row: number, caster: Caster, radiusM: number): void {
+  const { positions, heightM, clearanceM } = path;
+  const [x, y, z] = [positions[3 * row]!, positions[3 * row + 1]!, positions[3 * row + 2]!];
+  const height = caster.cast(x, y, z, 0, 0, -1, 0, FLOOR_MOST_M).distance;
+  heightM[row] = Number.isFinite(height) ? height : NaN;
+  let least = around(caster, x, y, z, radiusM + FAR_M);
+  const floorZ = z - (Number.isFinite(height) ? height : 0);
+  for (const over of BODY_M)
+    if (Number.isFinite(height)) least = Math.min(least, around(caster, x, y, floorZ + over, radiusM + FAR_M));
+  clearanceM[row] = least - radiusM;
+}
+
+/** The shortest of the level rays from a place. */
+function around(caster: Caster, x: number, y: number, z: number, most: number): number {
+  let least = most;
+  for (let k = 0; k < DIRECTIONS; k++) {
+    const angle = (2 * Math.PI * k) / DIRECTIONS;
+    least = Math.min(least, caster.cast(x, y, z, Math.cos(angle), Math.sin(angle), 0, 0, least).distance);
+  }
+  return least;
+}
