@@ -15,7 +15,7 @@ from scenes import ramp
 
 from walk_plan.compare.comparison import Comparison, compare, figures
 from walk_plan.compare.slope import NO_HEIGHT, NO_SLOPE, SlopeComparison, compare_on_slope
-from walk_plan.compare.variants import ALL, sharpest_turn_deg
+from walk_plan.compare.variants import ALL, sharp_turns
 from walk_plan.options import plan_config
 from walk_plan.outputs import COMPARISON_WRITERS, MARKER
 from walk_plan.pipeline import make_walkthrough, plan_walkthrough
@@ -46,7 +46,8 @@ def test_leaving_out_an_objective_worsens_what_it_is_for(comparison: Comparison)
     by_name = {variant.name: variant for variant in comparison.variants}
     every = by_name[ALL]
     assert by_name["deviation"].deviation_m >= every.deviation_m - 0.02
-    assert by_name["smoothness"].sharpest_turn_deg > every.sharpest_turn_deg
+    # Smoothness draws the path off the corners of the plan.
+    assert by_name["smoothness"].deviation_m < every.deviation_m
     assert by_name["clearance"].quality.mean_clearance_m < every.quality.mean_clearance_m
     assert by_name["keypoints"].keypoint_miss_m >= every.keypoint_miss_m - 0.02
 
@@ -88,11 +89,11 @@ def test_the_slope_is_found_in_either_direction(on_a_ramp: Comparison) -> None:
     assert slope.rise_m == pytest.approx(-on_a_ramp.slope.rise_m, abs=0.1)
 
 
-@pytest.mark.parametrize(("angle", "expected"), [(0.0, 0.0), (30.0, 30.0), (90.0, 90.0)])
-def test_the_sharpest_turn_of_a_bent_line_is_its_angle(angle: float, expected: float) -> None:
+@pytest.mark.parametrize(("angle", "expected"), [(0.0, 0), (25.0, 0), (35.0, 1), (90.0, 1)])
+def test_a_bent_line_has_a_sharp_turn_above_thirty_degrees(angle: float, expected: int) -> None:
     direction = [np.cos(np.radians(angle)), np.sin(np.radians(angle)), 0.0]
     points = np.array([[-3.0, 0.0, 0.0], [0.0, 0.0, 0.0], [3.0 * d for d in direction]])
-    assert sharpest_turn_deg(points) == pytest.approx(expected, abs=1e-6)
+    assert sharp_turns(points) == expected
 
 
 def test_a_comparison_is_written_beside_the_plan_and_goes_with_the_next(rooms_file: Path, tmp_path: Path) -> None:

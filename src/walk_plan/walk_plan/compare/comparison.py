@@ -72,7 +72,7 @@ def figures(comparison: Comparison) -> dict[str, Any]:
                 {
                     "left_out": "" if at == 0 else variant.name,
                     "deviation_m": variant.deviation_m,
-                    "sharpest_turn_deg": variant.sharpest_turn_deg,
+                    "sharp_turns": variant.sharp_turns,
                     "keypoint_miss_m": variant.keypoint_miss_m,
                     "repaired": variant.repaired,
                     "colliding_after_repair": variant.colliding,

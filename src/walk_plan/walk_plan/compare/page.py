@@ -35,7 +35,7 @@ _WHAT = {
 _COLUMNS: tuple[tuple[str, str, str, Callable[[Variant], str]], ...] = (
     ("Off the plan", "mean, from the planned tour", "deviation", lambda v: wording.centimetres(v.deviation_m)),
     ("Length", "metres walked", "length", lambda v: wording.metres(v.quality.length_m, 1)),
-    ("Sharpest turn", "of the path, over 0.3 m", "smoothness", lambda v: f"{v.sharpest_turn_deg:.0f}°"),
+    ("Sharp turns", "over 30° within 0.3 m", "smoothness", lambda v: str(v.sharp_turns)),
     ("Collisions", "pieces of the path", "clearance", lambda v: _collisions(v.quality)),
     ("Eye height", "largest error", "height", lambda v: wording.centimetres(v.quality.height_deviation_m)),
     ("Viewpoint missed", "by at most", "keypoints", lambda v: wording.centimetres(v.keypoint_miss_m)),
@@ -133,7 +133,7 @@ def _variant_note(variant: Variant) -> str:
     notes = {
         "deviation": f"{wording.centimetres(variant.deviation_m)} off the planned tour",
         "length": wording.metres(variant.quality.length_m, 1),
-        "smoothness": f"turns by up to {variant.sharpest_turn_deg:.0f}° in 0.3 m",
+        "smoothness": f"{variant.sharp_turns} sharp turns",
         "clearance": f"{_collisions(variant.quality)} pieces collide",
         "height": f"eye height up to {wording.centimetres(variant.quality.height_deviation_m)} wrong",
         "keypoints": f"misses one by {wording.centimetres(variant.keypoint_miss_m)}",

@@ -26,6 +26,7 @@ ALL = "all"
 
 _FINE_M = 0.02  # spacing of points that stand for a line when distances to it are taken
 _TURN_STEP_M, _TURN_STEPS = 0.1, 3
+_SHARP_COS = float(np.cos(np.radians(30.0)))
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,7 +37,7 @@ class Variant:
     points: NDArray[np.float64]  # (n, 3) [m]
     quality: PathQuality
     deviation_m: float  # mean distance from the planned tour
-    sharpest_turn_deg: float  # largest change of the path's direction over 0.3 m
+    sharp_turns: int  # places where the path turns by more than 30° within 0.3 m
     keypoint_miss_m: float  # largest distance at which a keypoint is passed
     repaired: int  # stretches that the check mends afterwards
     colliding: int  # stretches that it cannot mend
@@ -75,17 +76,17 @@ def _variant(name: str, walkthrough: Walkthrough, config: TrajoptConfig, measure
         points=points,
         quality=measure(name, points, time_path(raw, walkthrough.config.timing, targets)),
         deviation_m=float(cKDTree(every(tour.polyline, _FINE_M)).query(every(points, _TURN_STEP_M))[0].mean()),
-        sharpest_turn_deg=sharpest_turn_deg(points),
+        sharp_turns=sharp_turns(points),
         keypoint_miss_m=float(cKDTree(fine).query(walkthrough.keypoints)[0].max()),
         repaired=len(checked.repaired),
         colliding=len(checked.colliding),
     )
 
 
-def sharpest_turn_deg(points: NDArray[np.float64]) -> float:
-    """Returns the largest angle between the directions of a polyline before and behind a step of 0.3 m [°]."""
+def sharp_turns(points: NDArray[np.float64]) -> int:
+    """Returns at how many places a polyline's direction changes by more than 30° over a step of 0.3 m."""
     steps = np.diff(every(points, _TURN_STEP_M), axis=0)
     steps = steps[np.linalg.norm(steps, axis=1) > 1e-9]
     unit = steps / np.linalg.norm(steps, axis=1)[:, None]
-    cosine = (unit[_TURN_STEPS:] * unit[:-_TURN_STEPS]).sum(axis=1)
-    return float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)).max(initial=0.0)))
+    sharp = (unit[_TURN_STEPS:] * unit[:-_TURN_STEPS]).sum(axis=1) < _SHARP_COS
+    return int((np.diff(np.concatenate([[False], sharp]).astype(np.int8)) > 0).sum())
