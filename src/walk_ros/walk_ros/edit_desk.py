@@ -26,6 +26,7 @@ from walk_ros.keypoint_view import KeypointView
 from walk_ros.near_watch import NearWatch
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS
+from walk_ros.side_services import SideServices
 
 _ANSWER_S = 5.0
 """How long a service waits for what it asked for; then it says that the answer comes later."""
@@ -58,8 +59,14 @@ class EditDesk:
         node.offer("edit_results")
         node.take_in("keypoint_edits", self._store)
         node.take_in(FEEDBACK, lambda msg: self._store(msg, from_editor=True))
-        node.create_service(Trigger, "undo", lambda _request, response: self._change(Change.UNDO, response))
-        node.create_service(Trigger, "redo", lambda _request, response: self._change(Change.REDO, response))
+        self._services = SideServices(node)
+        self._services.offer(Trigger, "undo", lambda _request, response: self._change(Change.UNDO, response))
+        self._services.offer(Trigger, "redo", lambda _request, response: self._change(Change.REDO, response))
+        self._services.start()
+
+    def stop(self) -> None:
+        """Ends the services."""
+        self._services.stop()
 
     def reply(self, asked: Asked, outcome: Outcome, reason: str, keypoint: int = -1, saves_m: float = 0.0) -> None:
         """Answers an edit.

@@ -81,6 +81,11 @@ class SequencerNode(WalkNode):
             self._authority.planned = None
         self._desk.refuse_all("the sequencer has no tour: see /diagnostics")
 
+    def destroy_node(self) -> None:
+        """Ends the services, then the worker and the node."""
+        self._desk.stop()
+        super().destroy_node()
+
     def supersedes(self, groups: frozenset[str]) -> bool:
         """Returns whether a change of these groups makes the running step pointless."""
         return "sequencer" in groups

@@ -34,6 +34,7 @@ from walk_ros.conversions import (
 )
 from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
+from walk_ros.raw import from_bytes
 from walk_ros.results import path_bytes, path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
@@ -83,7 +84,7 @@ class TrajoptNode(WalkNode):
         self.take_in("tour", lambda msg: self._store("tour", tour_from_msg(msg)))
         for topic in ("keypoint_edits", "keypoint_editor/feedback"):
             self.take_in(topic, self._store_edit, self._answer_edits, raw=True)
-        self.take_in("edit_results", self._store_result)
+        self.take_in("edit_results", self._store_result, raw=True)
         self.start()
 
     def work(self, building: Building) -> None:
@@ -236,8 +237,11 @@ class TrajoptNode(WalkNode):
             return
         self._follow_edits(self.building, plan, timing)
 
-    def _store_result(self, msg: Any) -> None:
-        result = edit_result_from_msg(msg)
+    def _store_result(self, data: bytes) -> None:
+        # Every drag is answered; only a refusal is of use here, and is worth reading.
+        if Outcome.REFUSED.value.encode() not in bytes(data):
+            return
+        result = edit_result_from_msg(from_bytes(data, "diagnostic_msgs/msg/DiagnosticStatus"))
         refused = result.outcome is Outcome.REFUSED and result.keypoint.isdigit()
         # What the authority refuses is taken back: the path goes through its keypoints again.
         if refused and self._followed.pop(int(result.keypoint), None) == result.client_id:

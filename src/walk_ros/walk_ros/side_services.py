@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""Services that wait for the node's worker, in a thread of their own, so that the node hears on meanwhile."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import rclpy
+from rclpy.executors import ExternalShutdownException, ShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
+
+_END_S = 2.0
+
+
+class SideServices:
+    """A hidden node beside another one, whose service callbacks may wait.
+
+    A coroutine would not do: this executor asks an unfinished one again and again instead of sleeping.
+    """
+
+    def __init__(self, node: Node) -> None:
+        """Makes the hidden node; services are added with `offer`, then `start` begins to answer."""
+        self._beside = node
+        self._node = rclpy.create_node(
+            f"_{node.get_name()}_services",
+            context=node.context,
+            namespace=node.get_namespace(),
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, name=f"{node.get_name()} services", daemon=True)
+
+    def offer(self, kind: Any, name: str, callback: Callable[[Any, Any], Any]) -> None:
+        """Adds a service under the name that it has at the node beside, remapped as there."""
+        self._node.create_service(kind, self._beside.resolve_service_name(name), callback)
+
+    def start(self) -> None:
+        """Starts the thread."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Ends the thread and the hidden node."""
+        self._executor.shutdown(_END_S)
+        if self._thread.ident is not None:
+            self._thread.join(_END_S)
+        self._node.destroy_node()
+
+    def _spin(self) -> None:
+        with contextlib.suppress(ExternalShutdownException, ShutdownException):
+            self._executor.spin()
