@@ -190,8 +190,9 @@ class _Bench:
             _ANSWER_S,
             check,
         )
-        walked = str(result.revision_ns)
-        hand.wait(lambda: hand.state("trajopt").get("tour_revision_ns", "") >= walked, "its path", _ANSWER_S, check)
+        # The first path after the answer is the one through the new tour.
+        hand.wait(lambda: hand.path_came_s > answered, "its path", _ANSWER_S, check)
+        seen.walked_s.append(hand.path_came_s - began)
 
     def report(self, say: Say) -> dict[str, Any]:
         """Returns what has been measured since `begin`."""
@@ -233,6 +234,7 @@ class _Bench:
                 "reasons": list(answers.reasons),
             },
             "release_to_answer_ms": summary_ms(seen.release_s),
+            "release_to_new_tour_ms": summary_ms(seen.walked_s),
             "releases_refused": seen.release_refused,
             "paths": {
                 "received": seen.received,

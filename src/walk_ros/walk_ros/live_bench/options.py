@@ -27,6 +27,7 @@ class Seen:
 
     null_s: list[float] = dataclasses.field(default_factory=list)
     release_s: list[float] = dataclasses.field(default_factory=list)  # to the sequencer's answer
+    walked_s: list[float] = dataclasses.field(default_factory=list)  # to the path through the new tour
     release_refused: list[str] = dataclasses.field(default_factory=list)
     received: int = 0
     path_bytes: int = 0
