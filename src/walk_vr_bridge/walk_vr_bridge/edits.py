@@ -65,13 +65,18 @@ class EditDesk:
             self._pass_on(*held)
         return self._pass_on(client, msg)
 
-    def answer(self, values: dict[str, Any]) -> str:
-        """Puts the client's own stamp back into an answer of the graph; returns whose it is."""
+    def answer(self, values: dict[str, Any], *, final: bool) -> str:
+        """Puts the client's own stamp back into an answer of the graph; returns whose it is.
+
+        Args:
+            values: The answer.
+            final: Whether it is the sequencer's; trajopt's is about the path alone.
+        """
         for pair in values["values"]:
             if pair["key"] == "edit_stamp_ns" and pair["value"].isdigit():
                 asked = self._asked.get(int(pair["value"]))
                 if asked is not None and asked.client == values["hardware_id"]:
-                    asked.due_s = float("inf")
+                    asked.due_s = float("inf") if final else asked.due_s
                     pair["value"] = str(asked.label_ns)
         return str(values["hardware_id"])
 

@@ -81,7 +81,7 @@ class Operations:
 
     def answered(self, topic: str, values: dict[str, Any]) -> None:
         """Hands an answer of the sequencer or trajopt on to the client whose edit it is about."""
-        owner = self.desk.answer(values)
+        owner = self.desk.answer(values, final=topic == self._allowed.full("edit_results"))
         for client in self.hub.of(owner):
             client.deliver_values(topic, values)
 
