@@ -8,8 +8,15 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from graph.processes import LIMIT_S
+
+from walk_bag.storage import BagWriter
+from walk_bag.topics import BagTopic
+from walk_ros.conversions import EditKind, KeypointEdit, edit_to_msg
+from walk_ros.raw import to_bytes
+from walk_ros.topics import TOPICS, type_name
 
 pytestmark = pytest.mark.ros
 
@@ -18,13 +25,32 @@ _BOTH = (signal.SIGINT, signal.SIGTERM)
 
 @pytest.fixture
 def commands(rooms, tmp_path):
-    """What the console scripts do, by name; a bag to replay is not needed to be told to end."""
+    """What the console scripts do, by name."""
     return {
         "importance": ["-m", "walk_importance", "--ros-args", "-p", f"building:={rooms}"],
         "sequencer": ["-m", "walk_sequencer", "--ros-args", "-p", f"building:={rooms}"],
         "trajopt": ["-m", "walk_trajopt", "--ros-args", "-p", f"building:={rooms}"],
+        "bridge": ["-m", "walk_vr_bridge.main", "--ros-args", "-p", f"building:={rooms}", "-p", "bridge.port:=0"],
         "record": ["-c", _script("record"), "--out", str(tmp_path / "bag")],
+        "replay": ["-c", _script("replay"), str(_bag(tmp_path / "recorded")), "--hold"],
     }
+
+
+def _bag(folder):
+    """Writes a bag of one message."""
+    edit = KeypointEdit(
+        kind=EditKind.RELEASE,
+        keypoint=0,
+        client_id="anna",
+        stamp_ns=1,
+        position=np.zeros(3),
+        quat_xyzw=np.array([0.0, 0.0, 0.0, 1.0]),
+    )
+    kind = type_name(TOPICS["keypoint_edits"].type)
+    topic = BagTopic(name="/walk/keypoint_edits", type_name=kind, latched=False, reliable=True, depth=10)
+    with BagWriter(folder) as bag:
+        bag.write(topic, 1, to_bytes(edit_to_msg(edit)))
+    return folder
 
 
 def _script(name):
@@ -80,3 +106,23 @@ def _catches(pid, number):
     status = Path(f"/proc/{pid}/status").read_text()
     mask = next(line.split()[1] for line in status.splitlines() if line.startswith("SigCgt:"))
     return bool(int(mask, 16) >> (number - 1) & 1)
+
+
+def test_a_launcher_told_to_end_at_once_ends_all_nodes_cleanly(graph, commands):
+    """As `./walk up` does it: all are told while Python still starts."""
+    starting = "; ".join(
+        [
+            "import os, signal",
+            "from walk_bringup.cli.processes import Child, Supervisor",
+            f"up = Supervisor([Child(name=n, command=({sys.executable!r}, *c), unblocks=True) for n, c in COMMANDS])",
+            "up.start()",
+            "children = dict(up._running)",
+            "os.kill(os.getpid(), signal.SIGINT)",
+            "up.wait()",
+            "print({name: child.returncode for name, child in children.items()})",
+        ]
+    ).replace("COMMANDS", repr(list(commands.items())))
+    done = subprocess.run(
+        [sys.executable, "-c", starting], env=graph.environment(), capture_output=True, text=True, timeout=LIMIT_S
+    )
+    assert done.stdout.splitlines()[-1] == str(dict.fromkeys(commands, 0)), done

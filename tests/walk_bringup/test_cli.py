@@ -170,6 +170,27 @@ def test_signal_ends_all_children_once_and_cleanly(number: signal.Signals) -> No
     assert "failed:\n" in out
 
 
+AT_ONCE = """
+import os, signal, sys
+from walk_bringup.cli.processes import Child, Supervisor
+late = ("import signal, sys, time; time.sleep(0.5); both = (signal.SIGINT, signal.SIGTERM); "
+        "[signal.signal(n, lambda *_: sys.exit(0)) for n in both]; "
+        "signal.pthread_sigmask(signal.SIG_UNBLOCK, both); time.sleep(60)")
+supervisor = Supervisor([Child(name=n, command=(sys.executable, "-c", late), unblocks=True) for n in "ab"])
+supervisor.start()
+os.kill(os.getpid(), signal.SIGINT)
+children = list(supervisor._running.values())
+supervisor.wait()
+print("codes:", *(child.returncode for child in children), flush=True)
+"""
+
+
+def test_a_signal_at_once_ends_children_that_were_not_ready_for_it_cleanly() -> None:
+    env = os.environ | {"PYTHONPATH": os.pathsep.join(SOURCES)}
+    done = subprocess.run([sys.executable, "-c", AT_ONCE], env=env, capture_output=True, text=True, timeout=30)
+    assert done.stdout.endswith("codes: 0 0\n"), done
+
+
 def test_child_that_ends_is_named_and_the_others_go_on() -> None:
     with _supervise("raise SystemExit(3)", WAITS) as process:
         said = _read_until(process, "ended with code 3")

@@ -16,6 +16,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     # Loading takes a second, in which there is nothing yet that would have to be ended with care.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _leave)
+    # A launcher may start the process with both blocked, so that none is lost before this.
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
     from walk_vr_bridge.runner import run_bridge
 
     return run_bridge(argv)

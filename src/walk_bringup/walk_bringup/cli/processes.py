@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import ctypes
 import dataclasses
+import functools
 import signal
 import subprocess
 import sys
@@ -24,10 +25,19 @@ _GRACE_S = 8.0  # a node's worker may need 3 s to end, and the others run beside
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
 class Child:
-    """A process to be started."""
+    """A process to be started.
+
+    Attributes:
+        name: What its lines begin with.
+        command: And its arguments.
+        unblocks: Whether it lets SIGINT and SIGTERM through by itself once it can end cleanly, as `walk_ros.entry`
+            does; it is started with both blocked, so that one sent before is neither lost nor the end of the
+            interpreter half-way through its imports.
+    """
 
     name: str
     command: tuple[str, ...]
+    unblocks: bool = False
 
 
 class Supervisor:
@@ -55,7 +65,7 @@ class Supervisor:
                 text=True,
                 errors="replace",
                 start_new_session=True,
-                preexec_fn=_die_with_parent if sys.platform == "linux" else None,
+                preexec_fn=functools.partial(_prepare, child.unblocks),
             )
         # Only now: a process that has threads should not fork.
         width = max(len(child.name) for child in self._children)
@@ -114,6 +124,9 @@ def _wait_for(processes: list[subprocess.Popen[str]], seconds: float) -> None:
         time.sleep(0.02)
 
 
-def _die_with_parent() -> None:
-    # Where `walk up` itself is killed nobody is left to stop the nodes.
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+def _prepare(unblocks: bool) -> None:
+    if unblocks:
+        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    if sys.platform == "linux":
+        # Where `walk up` itself is killed nobody is left to stop the nodes.
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)

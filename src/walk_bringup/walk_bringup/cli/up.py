@@ -69,13 +69,13 @@ def up(
         # The last file wins; a plain `-p` would lose against the same parameter in --params-file.
         last = ["--params-file", str(own)] if params else []
         children = [
-            Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last))
+            Child(name=name, command=(str(find_executable(package, name)), "--ros-args", *shared, *last), unblocks=True)
             for name, package in NODES.items()
         ]
         if viewer_port is not None:
             viewer = str(find_executable("walk_bag", "viewer"))
             options = ("-r", f"__ns:=/{namespace.strip('/')}", "-p", f"viewer_port:={viewer_port}")
-            children.append(Child(name="viewer", command=(viewer, "--ros-args", *options)))
+            children.append(Child(name="viewer", command=(viewer, "--ros-args", *options), unblocks=True))
         supervisor = Supervisor(children)
         supervisor.start()
         domain = os.environ.get("ROS_DOMAIN_ID", "0")
