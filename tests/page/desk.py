@@ -40,7 +40,7 @@ class Desk:
 
     def look(self, view):
         """Looks another way by the button, and waits until the camera stands still."""
-        self.click(f'[data-view="{view}"]')
+        self.click(f'.segments [data-view="{view}"]')
         self.page.until(f"walk.desktop.viewName === '{view}'", view)
         self.settle()
 
