@@ -43,6 +43,21 @@ def content(data: bytes, media_type: str, cache_control: str = "no-cache", level
     )
 
 
+def as_answered(found: Content, if_none_match: str, accept_encoding: str) -> tuple[int, bytes, dict[str, str]]:
+    """Returns status, body and headers of the answer to a request with these headers."""
+    headers = {
+        "Content-Type": found.media_type,
+        "ETag": found.etag,
+        "Cache-Control": found.cache_control,
+        "Vary": "Accept-Encoding",
+    }
+    if found.etag in [tag.strip().removeprefix("W/") for tag in if_none_match.split(",")]:
+        return 304, b"", headers
+    if found.gzipped and "gzip" in accept_encoding:
+        return 200, found.gzipped, {**headers, "Content-Encoding": "gzip"}
+    return 200, found.data, headers
+
+
 class Page:
     """The built page, read again when a file has changed."""
 

@@ -17,14 +17,15 @@ import orjson
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from walk_vr_bridge.client import Client
-from walk_vr_bridge.content import Content
+from walk_vr_bridge.content import Content, as_answered
 from walk_vr_bridge.errors import PortError
 from walk_vr_bridge.files import Missing
+from walk_vr_bridge.letting_in import Reply, log_in, objection, pair
 from walk_vr_bridge.limits import MAX_CLIENTS, MAX_CLIENTS_PER_ADDRESS, MAX_MESSAGE, SILENCE_S, Bucket
 from walk_vr_bridge.model.scene import PROTOCOL
 from walk_vr_bridge.operations import parse
-from walk_vr_bridge.security.origin import HEADERS, same_origin
-from walk_vr_bridge.site import COOKIE, Door, Site, identity
+from walk_vr_bridge.security.origin import HEADERS
+from walk_vr_bridge.site import COOKIE, Door, Site, identity, silent_logger
 
 _log = logging.getLogger(__name__)
 _HEARTBEAT_S = 10.0
@@ -34,14 +35,6 @@ _SECRETS_PER_S = 2.0
 """Tokens and codes that may be tried a second, by all clients together."""
 
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
-
-
-def _silent_logger() -> logging.Logger:
-    # What clients send wrong is theirs to hear, and a request line in a log could hold a token.
-    logger = logging.Logger("walk_vr_bridge.http")
-    logger.addHandler(logging.NullHandler())
-    logger.propagate = False
-    return logger
 
 
 class WebServer:
@@ -61,7 +54,7 @@ class WebServer:
         app.router.add_get("/ws", self._socket)
         app.router.add_get("/{path:.*}", self._file)
         self._runner = web.AppRunner(
-            app, access_log=None, logger=_silent_logger(), handle_signals=False, shutdown_timeout=1.0,
+            app, access_log=None, logger=silent_logger(), handle_signals=False, shutdown_timeout=1.0,
             max_line_size=4096, max_field_size=4096, keepalive_timeout=30.0,
         )  # fmt: skip
         self._app = app
@@ -110,16 +103,10 @@ class WebServer:
         return response
 
     def _refuse(self, request: web.Request) -> web.Response | None:
-        """Returns why a request is not even looked at."""
-        host = request.headers.get("Host", "")
-        if len(request.headers.getall("Host", [])) != 1 or not self._door.hosts.knows(host):
-            return _error(421, "this bridge is not known by that name; -p bridge.hosts:=NAME adds one")
-        origins = request.headers.getall("Origin", [])
-        if len(origins) > 1 or not same_origin(origins[0] if origins else None, host, tls=self._door.lan):
-            return _error(403, "another page may not use this bridge")
-        if request.headers.get("Sec-Fetch-Site", "none") == "cross-site" and request.path != "/":
-            return _error(403, "another page may not use this bridge")
-        return None
+        headers = request.headers
+        site = headers.get("Sec-Fetch-Site", "")
+        found = objection(self._door, headers.getall("Host", []), headers.getall("Origin", []), site, request.path)
+        return None if found is None else _json(found.body, found.status)
 
     def _role(self, request: web.Request) -> str:
         scheme, _, bearer = request.headers.get("Authorization", "").partition(" ")
@@ -149,25 +136,10 @@ class WebServer:
         )
 
     async def _pair(self, request: web.Request) -> web.Response:
-        pairing, body = self._door.pairing, await self._body(request)
-        if pairing is None:
-            return _json({"role": "editor"})
-        if body.get("renew") is True:
-            if pairing.alive or pairing.renew():
-                return _json({"renewed": True})
-            return _error(429, "a new code is shown once a minute at most")
-        if not pairing.alive:
-            return _error(410, "the code is used or too old; ask for a new one")
-        if pairing.use(str(body.get("code", ""))[:32]):
-            return self._let_in("editor")
-        return _json({"error": "this is not the code", "tries_left": pairing.tries_left}, 403)
+        return self._let_in(pair(self._door, await self._body(request)))
 
     async def _login(self, request: web.Request) -> web.Response:
-        body = await self._body(request)
-        if not self._door.lan:
-            return _json({"role": "editor"})
-        role = self._door.role(token=str(body.get("token", ""))[:200])
-        return self._let_in(role) if role else _error(403, "the token is not of this bridge, or of an earlier start")
+        return self._let_in(log_in(self._door, await self._body(request)))
 
     async def _logout(self, request: web.Request) -> web.Response:
         self._door.access.close_session(request.cookies.get(COOKIE, ""))
@@ -175,11 +147,11 @@ class WebServer:
         response.del_cookie(COOKIE, path="/", secure=True, httponly=True, samesite="Strict")
         return response
 
-    def _let_in(self, role: str) -> web.Response:
-        response = _json({"role": role})
-        response.set_cookie(
-            COOKIE, self._door.access.open_session(role), path="/", secure=True, httponly=True, samesite="Strict"
-        )
+    def _let_in(self, reply: Reply) -> web.Response:
+        response = _json(reply.body, reply.status)
+        if reply.let_in:
+            value = self._door.access.open_session(reply.let_in)
+            response.set_cookie(COOKIE, value, path="/", secure=True, httponly=True, samesite="Strict")
         return response
 
     async def _body(self, request: web.Request) -> dict[str, Any]:
@@ -304,10 +276,6 @@ def _file(request: web.Request, found: Content | Missing) -> web.Response:
         if found.status == 503:
             response.headers["Retry-After"] = "1"
         return response
-    headers = {"Content-Type": found.media_type, "ETag": found.etag, "Cache-Control": found.cache_control,
-               "Vary": "Accept-Encoding"}  # fmt: skip
-    if found.etag in [tag.strip().removeprefix("W/") for tag in request.headers.get("If-None-Match", "").split(",")]:
-        return web.Response(status=304, headers=headers)
-    if found.gzipped and "gzip" in request.headers.get("Accept-Encoding", ""):
-        return web.Response(body=found.gzipped, headers={**headers, "Content-Encoding": "gzip"})
-    return web.Response(body=found.data, headers=headers)
+    asked = request.headers
+    status, body, headers = as_answered(found, asked.get("If-None-Match", ""), asked.get("Accept-Encoding", ""))
+    return web.Response(body=body, status=status, headers=headers)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import logging
 import re
 import secrets
 import time
@@ -102,3 +103,12 @@ def identity(secret: str | None) -> str:
     """Returns the `client_id` that belongs to the secret of a client, a new one where it names none."""
     text = secret if secret is not None and _SECRET.fullmatch(secret) else secrets.token_urlsafe(24)
     return "web-" + hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def silent_logger() -> logging.Logger:
+    """Returns a logger that keeps everything to itself, for the library that serves."""
+    # What clients send wrong is theirs to hear, and a request line in a log could hold a token.
+    logger = logging.Logger("walk_vr_bridge.http")
+    logger.addHandler(logging.NullHandler())
+    logger.propagate = False
+    return logger
