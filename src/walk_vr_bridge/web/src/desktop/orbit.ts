@@ -16,7 +16,7 @@ const LEAST_M = 1.5;
 /** Keypoints stay about this large in the picture: their radius over the distance. */
 const PIN_PART = 0.0085;
 /** A sphere around the building is larger than its picture: one comes this much nearer. */
-const SNUG = 0.9;
+const SNUG = 0.97;
 /** The camera glides to where it is sent [1/s]. */
 const GLIDE = 12;
 

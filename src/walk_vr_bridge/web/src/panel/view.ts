@@ -3,8 +3,9 @@
 /** The View tab: how the building is shown, which map is laid into it, and what the path is coloured by. */
 
 import type { Actions } from "../client/actions";
-import type { MapName, PathColour, State, Surface } from "../client/state";
-import type { Section, Widget } from "./widgets";
+import type { ChannelName, ImportanceState, MapName, PathColour, State, Storey, Surface } from "../client/state";
+import { rangeIndoors } from "../scene/volume";
+import type { Legend, Section, Widget } from "./widgets";
 
 const SURFACES = [
   { value: "building", label: "Solid" },
@@ -66,7 +67,7 @@ function storeyChoice({ building, selection }: State, actions: Actions): Widget[
   ];
 }
 
-function mapWidgets({ settings, importance, loading }: State, actions: Actions): Widget[] {
+function mapWidgets({ settings, importance, loading, building }: State, actions: Actions): Widget[] {
   const widgets: Widget[] = [
     {
       kind: "choice",
@@ -82,10 +83,23 @@ function mapWidgets({ settings, importance, loading }: State, actions: Actions):
     const text = loading.importance || "The maps are being computed …";
     return [...widgets, { kind: "note", id: "no-map", text, tone: "plain" }];
   }
-  const channel = importance.channels.find(({ name }) => name === settings.map);
-  if (!channel) return widgets;
-  const read = (value: number): string => value.toFixed(2);
-  return [...widgets, { kind: "legend", id: "map-legend", low: read(channel.low), high: read(channel.high) }];
+  return [...widgets, mapLegend(importance, settings.map, building?.storeys ?? [])];
+}
+
+/** What the ends of the colours mean, by map and channel: finding it looks through the whole map. */
+const legends = new WeakMap<ImportanceState, Map<ChannelName, Legend>>();
+
+function mapLegend(importance: ImportanceState, channel: ChannelName, storeys: readonly Storey[]): Legend {
+  const known = legends.get(importance) ?? new Map<ChannelName, Legend>();
+  legends.set(importance, known);
+  const before = known.get(channel);
+  if (before) return before;
+  const { low, high } = importance.channels.find(({ name }) => name === channel) ?? { low: 0, high: 1 };
+  const [from, to] = rangeIndoors(importance, channel, storeys);
+  const read = (share: number): string => (low + (high - low) * share).toFixed(2);
+  const legend: Legend = { kind: "legend", id: "map-legend", low: read(from), high: read(to) };
+  known.set(channel, legend);
+  return legend;
 }
 
 function pathWidgets(state: State, actions: Actions): Widget[] {
