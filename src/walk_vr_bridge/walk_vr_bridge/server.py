@@ -57,7 +57,6 @@ class WebServer:
             app, access_log=None, logger=silent_logger(), handle_signals=False, shutdown_timeout=1.0,
             max_line_size=4096, max_field_size=4096, keepalive_timeout=30.0,
         )  # fmt: skip
-        self._app = app
 
     async def start(self, host: str, port: int) -> int:
         """Listens; returns the port.
