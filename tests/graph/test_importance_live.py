@@ -4,9 +4,12 @@
 
 import numpy as np
 import pytest
+import trimesh
 from graph.processes import Observer
 
 from walk_ros import conversions as c
+from walk_ros.conversions.stamps import stamp_from_msg
+from walk_ros.diagnostics import diagnostic_values
 
 pytestmark = pytest.mark.ros
 
@@ -72,6 +75,36 @@ def test_another_voxel_size_computes_the_maps_anew_and_the_old_size_comes_from_d
     np.testing.assert_array_equal(again.visibility, old.visibility)
 
 
+def test_every_map_comes_with_its_standard_error_which_falls(running, observer):
+    before = counts(observer, "importance_map", "/diagnostics")
+    change(observer, "importance.voxel_size_m", 0.15)
+    stamps = [stamp_from_msg(msg.header.stamp) for msg in observer.heard["importance_map"][before[0] :]]
+
+    def told():
+        found = {}
+        for msg in observer.heard["/diagnostics"][before[1] :]:
+            for values in map(diagnostic_values, msg.status):
+                if "visibility_stderr" in values:
+                    found[int(values["map_revision_ns"])] = float(values["visibility_stderr"])
+        return found
+
+    observer.wait(lambda: set(stamps) <= set(told()), "the error of every map")
+    errors = [told()[stamp] for stamp in stamps]
+    assert len(errors) >= 3
+    assert errors == sorted(errors, reverse=True)
+    assert errors[0] > 1.5 * errors[-1] > 0
+    change(observer, "importance.voxel_size_m", 0.25)
+
+
+def test_a_cap_on_voxels_makes_the_grid_coarser_and_the_node_says_so(running, observer):
+    change(observer, "importance.max_voxels", 2000)
+    coarse = c.importance_map_from_msg(observer.last("importance_map")).grid
+    assert np.prod(coarse.shape) <= 2000
+    assert coarse.voxel_size_m > 0.25
+    assert f"{coarse.voxel_size_m:.3f} m" in running.log("importance")
+    change(observer, "importance.max_voxels", 1_500_000)
+
+
 @pytest.mark.parametrize(
     ("name", "value", "said"),
     [
@@ -88,6 +121,23 @@ def test_a_bad_value_is_refused_by_name_and_changes_nothing(running, observer, n
     assert said in result.reason
     assert counts(observer, *MAP_TOPICS, SUGGESTED) == before
     assert running.processes["importance"].poll() is None
+
+
+def test_after_bad_values_a_good_one_is_taken(running, observer):
+    assert not observer.set_parameter("importance", "keypoints.cone_radius_m", 0.0).successful
+    assert len(change(observer, "keypoints.cone_radius_m", 3.0).positions) >= 3
+    assert len(change(observer, "keypoints.cone_radius_m", 4.0).positions) >= 3
+
+
+def test_a_grid_without_a_free_voxel_is_said_and_the_next_building_works(running, observer, rooms, tmp_path):
+    sheet = tmp_path / "sheet.ply"
+    corners = np.array([[0.0, 0, 0], [6, 0, 0], [6, 6, 0], [0, 6, 0]])
+    trimesh.Trimesh(corners, [[0, 1, 2], [0, 2, 3]]).export(sheet)
+    assert len(change(observer, "building", str(sheet)).positions) == 0
+    observer.wait(lambda: observer.state("importance").get("state") == "failed", "the error")
+    assert "no voxel of 0.25 m is free" in observer.state("importance")["message"]
+    assert running.processes["importance"].poll() is None
+    assert len(change(observer, "building", str(rooms)).positions) >= 3
 
 
 def test_more_keypoints_than_fit_are_an_error_that_says_how_many_do(running, observer):

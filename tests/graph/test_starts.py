@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each node alone: other orders, bad arguments, an end in the middle of work."""
 
+import itertools
 import subprocess
 import sys
 import time
 
 import pytest
-from graph.processes import LIMIT_S, NODES
+from graph.processes import LIMIT_S, NODES, Graph, Observer
 
 from walk_ros import conversions as c
 
@@ -23,6 +24,21 @@ def test_started_one_after_the_other_is_heard_has_input(graph, observer):
     graph.start("trajopt")
     observer.wait(lambda: observer.last("trajectory"), "a trajectory")
     assert len(c.path_from_msg(observer.last("path")).positions) > 10
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(NODES)), ids="-".join)
+def test_every_order_of_starts_ends_in_the_same_walk(rooms, tmp_path, other_domain, order):
+    graph, watching = Graph(other_domain, tmp_path, rooms), Observer(other_domain)
+    try:
+        for name in order:
+            graph.start(name)
+            watching.wait(lambda name=name: watching.state(name), f"{name} to be there")
+        path = watching.wait(lambda: (p := watching.last("path")) and len(p.poses) > 10 and p, "a path")
+        assert len(c.path_from_msg(path).positions) > 10
+        assert len(c.keypoints_from_msg(watching.last("keypoints")).positions) >= 3
+    finally:
+        graph.close()
+        watching.close()
 
 
 @pytest.mark.parametrize("name", list(NODES))

@@ -138,10 +138,16 @@ def test_a_ramp_is_a_floor_and_a_steep_roof_side_is_a_wall() -> None:
 
 
 @pytest.mark.parametrize(
-    ("kind", "share"), [("IfcSlab", 1.0), ("IfcStairFlight", 1.0), ("IfcWallStandardCase", 0.0), ("IfcFurniture", 0.0)]
+    ("kind", "share"),
+    [
+        *((kind, 1.0) for kind in ("IfcSlab", "IfcRoof", "IfcStairFlight", "IfcRamp", "IfcFooting", "IfcSite")),
+        *((kind, 0.0) for kind in ("IfcWallStandardCase", "IfcFurniture", "IfcDoor", "IfcColumn")),
+        # What has a class that says nothing is asked for its shape: top and bottom, not the sides.
+        ("IfcBuildingElementProxy", 60 / 66.6),
+    ],
 )
 def test_the_class_decides_where_there_is_one(kind: str, share: float) -> None:
-    assert level_share([box((0, 0, 0), (6, 5, 0.3))], 0, kind) == share
+    assert level_share([box((0, 0, 0), (6, 5, 0.3))], 0, kind) == pytest.approx(share)
 
 
 def test_a_covering_is_left_out_where_it_lies_flat_only() -> None:

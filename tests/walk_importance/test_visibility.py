@@ -110,8 +110,29 @@ def test_through_a_slit_two_rows_see_each_other_along_its_line_only() -> None:
     np.testing.assert_allclose(share[3, 1], 2.0, atol=1e-4)
 
 
-def test_two_rooms_and_a_wide_opening_in_closed_form() -> None:
-    # Along x only: one row of voxels with an obstacle at k sees k - 1 and n - k - 2 others on either side.
+@pytest.mark.parametrize(("near", "far", "width", "slit"), [(4, 4, 9, 4), (3, 5, 8, 2), (6, 2, 11, 0)])
+def test_two_rooms_and_a_slit_in_closed_form(near: int, far: int, width: int, slit: int) -> None:
+    """A wall one voxel thick between two rooms, with a slit of one voxel over all the height."""
+    height = 3
+    free = np.ones((width, near + 1 + far, height), bool)
+    free[:, near] = False
+    free[slit, near] = True
+    seen = exact_share(free) * (free.sum() - 1)
+
+    def through(x: int, a: int, u: int, b: int) -> bool:
+        # From a rows before the wall to b behind it the segment is in the wall's row from a - 1/2 to a + 1/2 rows on;
+        # there it must stay off the slit's sides, by less than half a voxel from its middle.
+        return all(abs(2 * (x - slit) * (a + b) + (u - x) * (2 * a + side)) < a + b for side in (-1, 1))
+
+    for x in range(width):
+        for a in range(1, near + 1):
+            opposite = sum(through(x, a, u, b) for u in range(width) for b in range(1, far + 1))
+            # From a rows off, the slit is seen within a voxels to either side.
+            expected = near * width * height - 1 + height * ((abs(x - slit) < a) + opposite)
+            np.testing.assert_allclose(seen[x, near - a], expected, atol=1e-2)
+
+
+def test_along_a_row_an_obstacle_parts_those_on_either_side() -> None:
     free = np.ones((11, 1, 1), bool)
     free[4] = False
     share = exact_share(free).ravel() * (free.sum() - 1)

@@ -60,6 +60,7 @@ class ImportanceNode(WalkNode):
         self._suggested_for: KeypointConfig | None = None
         self._early: Start | None = None
         self._storeys = 0
+        self._notes: tuple[str, ...] = ()  # of the map published last
         self.offer("importance_map", "importance_map/storeys", "suggested_keypoints")
         self._near = NearDesk(self, self._find_near)
         self.start()
@@ -192,18 +193,26 @@ class ImportanceNode(WalkNode):
         if latest is not None:
             self._map = latest
             self._store().keep_maps(building.hash, config, latest)
-            for note in latest.notes:
-                self.get_logger().warning(note)
 
     def _publish_map(self, floors_z: Sequence[float], eye_height_m: float) -> None:
         if self._map is not None:
             self._publish(self._map, floors_z, eye_height_m)
 
     def _publish(self, importance_map: ImportanceMap, floors_z: Sequence[float], eye_height_m: float) -> None:
-        """Publishes a map and its storeys."""
+        """Publishes a map and its storeys, and right behind them how exact they are."""
         self._offer_storeys(max(len(floors_z), 1))
-        self.publish_all(map_bytes(importance_map, floors_z, eye_height_m, self.revision()))
-        self.diagnostics.note(solver_status=f"visibility to {importance_map.visibility_stderr:.4f} (standard error)")
+        stamp_ns, stderr = self.revision(), importance_map.visibility_stderr
+        self.publish_all(map_bytes(importance_map, floors_z, eye_height_m, stamp_ns))
+        self.diagnostics.note(
+            solver_status=f"visibility to {stderr:.4f} (standard error)",
+            visibility_stderr=stderr,
+            map_revision_ns=stamp_ns,
+        )
+        self.publish_diagnostics()
+        if importance_map.notes != self._notes:
+            self._notes = importance_map.notes
+            for note in self._notes:
+                self.get_logger().warning(note)
 
     def _offer_storeys(self, count: int) -> None:
         # Latched keeps the last few messages of a topic: as many as there are storeys, or some would be lost.
