@@ -44,6 +44,7 @@ export class Desktop {
   private readonly page = element("div", "desktop");
   private presenting = false;
   private riding = false;
+  private covered: Covered = { left: 0, right: 0, top: 0, bottom: 0 };
 
   constructor(
     private readonly view: View,
@@ -57,8 +58,7 @@ export class Desktop {
     this.panel = new PanelModel(client, this.study);
     this.panel.startClock();
     const playbar = new Playbar(client).root;
-    const covered = (): Covered =>
-      coveredBy({ head: this.header.root, rail: this.rail.root, panel: this.domPanel.root, playbar });
+    const covered = (): Covered => this.covered;
     this.stroll = new Stroll(view, stage);
     this.viewpoints = {
       orbit: new Orbit(view, stage, covered),
@@ -77,6 +77,7 @@ export class Desktop {
     const parts = [this.header.root, this.rail.root, this.domPanel.root, playbar, toasts.root];
     this.page.append(...parts, curtain(client), pairing(client), guide);
     document.querySelector("#page")!.append(this.page);
+    this.watchCovered(playbar);
     listenToKeys({
       client,
       stroll: this.stroll,
@@ -92,6 +93,14 @@ export class Desktop {
     view.onFrame(() => measurer.step(MEASURE_MS));
     view.onFrame((seconds) => this.frame(seconds, toasts));
     this.show("orbit");
+  }
+
+  /** Measures what the page covers when it changes, not each frame. */
+  private watchCovered(playbar: Element): void {
+    const parts = { head: this.header.root, rail: this.rail.root, panel: this.domPanel.root, playbar };
+    const observer = new ResizeObserver(() => (this.covered = coveredBy(parts)));
+    for (const part of Object.values(parts)) observer.observe(part);
+    this.covered = coveredBy(parts);
   }
 
   get viewName(): ViewpointName {
