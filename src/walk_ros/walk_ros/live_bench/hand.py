@@ -53,7 +53,6 @@ class Hand:
     Attributes:
         sent: Every drag that was published, in order.
         paths: When each path came in, by its stamp.
-        path_came_s: When the last path came in.
         raw: The serialised paths that nobody has taken yet, by stamp.
     """
 
@@ -67,7 +66,6 @@ class Hand:
         self._results: list[tuple[bytes, float]] = []
         self.paths: dict[int, float] = {}
         self.raw: dict[int, bytes] = {}
-        self.path_came_s = 0.0
         self.keypoints: LabelledKeypoints | None = None
         self._states: dict[str, dict[str, str]] = {}
         self._copies: dict[int, float] = {}
@@ -204,7 +202,7 @@ class Hand:
     def _on_path(self, data: Any) -> None:
         now, data = time.perf_counter(), bytes(data)
         stamp_ns = path_stamp_ns(data)
-        self.paths[stamp_ns], self.raw[stamp_ns], self.path_came_s = now, data, now
+        self.paths[stamp_ns], self.raw[stamp_ns] = now, data
 
     def _on_copy(self, data: Any) -> None:
         now = time.perf_counter()

@@ -190,9 +190,9 @@ class _Bench:
             _ANSWER_S,
             check,
         )
-        # The first path after the answer is the one through the new tour.
-        hand.wait(lambda: hand.path_came_s > answered, "its path", _ANSWER_S, check)
-        seen.walked_s.append(hand.path_came_s - began)
+        # Stamps are of one clock: a path that is later than the new tour leads through it.
+        hand.wait(lambda: max(hand.paths, default=0) > result.revision_ns, "its path", _ANSWER_S, check)
+        seen.walked_s.append(min(at for stamp, at in hand.paths.items() if stamp > result.revision_ns) - began)
 
     def report(self, say: Say) -> dict[str, Any]:
         """Returns what has been measured since `begin`."""
