@@ -13,7 +13,10 @@ export function curtain(client: Client): HTMLElement {
   const card = element("div", "card");
   const title = element("h1");
   const text = element("p");
-  card.append(element("div", "spinner"), title, text);
+  const again = element("button", "button primary", "Try again");
+  again.type = "button";
+  again.addEventListener("click", () => client.retry());
+  card.append(element("div", "spinner"), title, text, again);
   root.append(card);
   root.setAttribute("role", "status");
   const update = (): void => {
@@ -21,6 +24,7 @@ export function curtain(client: Client): HTMLElement {
     const failed = loading.failed || connection.phase === "refused";
     root.hidden = (building !== null && !failed) || connection.phase === "pairing";
     root.classList.toggle("failed", failed);
+    again.hidden = connection.phase !== "refused";
     setText(title, failed ? "This does not work" : "Opening the building");
     const waiting = connection.phase === "connected" ? loading.building : connection.message;
     setText(text, loading.failed ? loading.building : waiting);
