@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
@@ -13,6 +14,7 @@ from typing import Self
 from rosbags.highlevel import AnyReader
 from rosbags.interfaces import Connection, QosDurability, QosReliability
 from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys.store import Typestore
 
 from walk_bag.errors import BagError
 from walk_bag.mcap_file import McapFile, is_finished, is_mcap, read_whole_records
@@ -40,7 +42,6 @@ class BagWriter:
         """
         self.path = Path(path)
         self._keep = keep or self.path.suffix != ".mcap"
-        self._types = get_typestore(Stores.ROS2_JAZZY)
         try:
             self._file = McapFile(self._begin())
         except OSError as error:
@@ -85,7 +86,7 @@ class BagWriter:
 
     def type_hash(self, type_name: str) -> str:
         """Returns the hash of a message type, `RIHS01_…`, as the bag will hold it."""
-        return str(self._types.hash_rihs01(type_name))
+        return str(_types().hash_rihs01(type_name))
 
     def write(self, topic: BagTopic, stamp_ns: int, data: bytes) -> None:
         """Appends a message (CDR bytes) that was sent or came in at the time.
@@ -95,8 +96,7 @@ class BagWriter:
         """
         try:
             if topic.name not in self._file.topics:
-                definition, _ = self._types.generate_msgdef(topic.type_name, ros_version=2)
-                self._file.add(topic, definition, self.type_hash(topic.type_name))
+                self._file.add(topic, message_definition(topic.type_name), self.type_hash(topic.type_name))
             self._file.write(topic.name, stamp_ns, data)
         except OSError as error:
             raise _disk_error(self._file.path, error) from error
@@ -120,6 +120,17 @@ class BagWriter:
         except OSError as error:
             self._file.cut()
             raise _disk_error(self._file.path, error) from error
+
+
+def message_definition(type_name: str) -> str:
+    """Returns the definition of a message type and of all it is made of, as bags and viewers hold it."""
+    definition, _ = _types().generate_msgdef(type_name, ros_version=2)
+    return str(definition)
+
+
+@functools.cache
+def _types() -> Typestore:
+    return get_typestore(Stores.ROS2_JAZZY)
 
 
 def _disk_error(path: Path, error: OSError) -> BagError:
@@ -220,7 +231,7 @@ def _existing(path: Path | str) -> Path:
 @contextlib.contextmanager
 def _reading(path: Path) -> Iterator[AnyReader]:
     try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
+        with AnyReader([path], default_typestore=_types()) as reader:
             yield reader
     except GeneratorExit:
         raise

@@ -9,12 +9,12 @@ import threading
 from collections import deque
 from collections.abc import Mapping, Sequence
 
-import foxglove
-from foxglove import Channel, Schema
 from foxglove.websocket import ChannelView, Client, ServerListener
 from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
-from rosbags.typesys import Stores, get_typestore
 
+import foxglove
+from foxglove import Channel, Schema
+from walk_bag.storage import message_definition
 from walk_ros.errors import ArgumentError
 from walk_ros.raw import RawSubscriber, policies
 from walk_ros.runner import run_node
@@ -97,10 +97,9 @@ class _Latched(ServerListener):
 
 def make_channels(topics: Mapping[str, Topic]) -> dict[str, Channel]:
     """Returns a channel for each topic, with the definition of its messages."""
-    types = get_typestore(Stores.ROS2_JAZZY)
     channels = {}
     for name, spec in topics.items():
-        definition, _ = types.generate_msgdef(type_name(spec.type), ros_version=2)
+        definition = message_definition(type_name(spec.type))
         schema = Schema(name=type_name(spec.type), encoding="ros2msg", data=definition.encode())
         channels[name] = Channel(name, schema=schema, message_encoding="cdr")
     return channels
