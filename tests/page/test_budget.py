@@ -63,7 +63,8 @@ def test_memory_is_flat_while_nothing_happens(headset):
     # Two thirds of a thousand frames here; ten thousand with the same figure in docs/headset.md.
     grown = headset.js("""
       hands.head([0, 1.6, 0]);
-      await hands.frames(60);
+      // Until everything is compiled and every cache has its size.
+      await hands.frames(400);
       const used = async () => {
         for (let i = 0; i < 4; i++) { gc(); await hands.frames(2); }
         return performance.memory.usedJSHeapSize;

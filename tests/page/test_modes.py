@@ -8,6 +8,7 @@ pytestmark = pytest.mark.ros
 
 PLAIN = {"surface": "building", "map": "none", "pathColour": "plain"}
 MAPS = ("obstacle", "distance", "visibility", "importance")
+MEASURED = "walk.client.store.state.path.clearanceM[walk.stage.tube.rowOf[walk.stage.tube.rings - 1]] > -1"
 COLOURS = ("speed", "clearance", "height", "collisions")
 
 
@@ -16,7 +17,6 @@ def picture(headset, tmp_path_factory):
     folder = tmp_path_factory.mktemp("modes")
     headset.js("""
       await hands.until(() => walk.client.store.state.importance, "the importance map", 60000);
-      await hands.until(() => walk.client.store.state.path.clearanceM[0] >= 0, "the profile of the path", 60000);
       walk.room.rig.headTo(6, 0, -2);
       hands.head([0, 1.5, 0.1]);
       hands.device.quaternion.set(-0.3, 0, 0, 0.954);
@@ -29,6 +29,8 @@ def picture(headset, tmp_path_factory):
     def take(**settings):
         wanted = PLAIN | settings
         headset.js(f"walk.client.actions.set({wanted}); await hands.frames(4); walk.stage.nameNote.hide()")
+        if wanted["pathColour"] in ("clearance", "height", "collisions"):
+            headset.js(f"await hands.until(() => {MEASURED}, 'the measures of the path')")
         headset.js("await hands.frames(2)")
         file = folder / "picture.png"
         headset.shot(file)

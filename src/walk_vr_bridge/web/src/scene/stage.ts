@@ -15,6 +15,7 @@ import { Note } from "./note";
 import { Overlay } from "./overlay";
 import { paintPath } from "./pathview";
 import type { Showing } from "./pins";
+import { Profile } from "./profile";
 import { PathTube } from "./tube";
 import type { View } from "./view";
 
@@ -59,6 +60,7 @@ export class Stage {
   private drawn = false;
   private refusals = 0;
   private wasCut = false;
+  private readonly profile = new Profile();
 
   constructor(
     readonly view: View,
@@ -165,6 +167,15 @@ export class Stage {
     paintPath(this.tube, path, settings.pathColour);
   }
 
+  /** A few rings a frame, and only where their colours are looked at. */
+  private measurePath(): void {
+    const { path, settings, building } = this.store.state;
+    const { pathColour } = settings;
+    if (!this.models || !building || pathColour === "plain" || pathColour === "speed") return;
+    const found = this.profile.step(path, this.tube, this.models.bvh, building.walker.radiusM);
+    if (found) paintPath(this.tube, path, pathColour);
+  }
+
   private restyle(): void {
     const { path, settings } = this.store.state;
     paintPath(this.tube, path, settings.pathColour);
@@ -202,6 +213,7 @@ export class Stage {
     this.setSizes();
     this.full.lookFrom(view.eye);
     miniature.copy.lookFrom(view.eye);
+    this.measurePath();
     this.drawKeypoints();
     this.maps.update(miniature.clip, this.bounds, this.viewerFloor(), this.mode === "room");
     this.walk();
