@@ -102,7 +102,7 @@ def test_the_edits_played_into_a_fresh_graph_give_the_same_walk(session, rooms, 
             graph.start(name)
         listener.wait_for_all()
         graph.run("replay", "walk_bag.replay", str(bag), "--topics", "keypoint_edits", "--rate", "5", "--delay", "3")
-        listener.wait(lambda: len([r for r in listener.heard["edit_results"]]) >= 2, "both answers")
+        listener.wait(lambda: len(listener.heard["edit_results"]) >= 2, "both answers")
         now = c.keypoint_markers_from_msg(listener.last("keypoint_markers"))
         listener.wait(
             lambda: np.array_equal(

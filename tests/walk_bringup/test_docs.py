@@ -40,8 +40,8 @@ def test_pages_name_only_commands_and_parameters_that_exist(page: Path) -> None:
     text = page.read_text(encoding="utf-8")
     for name in re.findall(r"\./walk ([a-z]\w*)", text):
         assert name in COMMANDS, name
-    known = set(re.findall(r"`((?:\w+)\.(?:\w+))`", parameters_markdown()))
+    known = set(re.findall(r"`([a-z]\w*\.\w+)`", parameters_markdown()))
     groups = {name.split(".")[0] for name in known}
-    for name in re.findall(r"`(\w+\.\w+)`", text):
-        if name.split(".")[0] in groups and not name.endswith((".md", ".py", ".yaml", ".json")):
+    for name in re.findall(r"`([a-z]\w*\.\w+)`", text):
+        if name.split(".")[0] in groups and not name.endswith((".md", ".py", ".yaml", ".json", ".bin")):
             assert name in known, name

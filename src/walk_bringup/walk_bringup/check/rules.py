@@ -60,7 +60,8 @@ def _is_ros(module: str) -> bool:
 
 def _ros_at_the_rim(imports: dict[str, list[tuple[int, str]]]) -> Iterator[str]:
     for path, found in imports.items():
-        if path.endswith("/node.py") or path.startswith(ROS_FOLDERS):
+        # Beside a node lies the door to it, which imports nothing but the handling of signals.
+        if path.endswith(("/node.py", "/__main__.py")) or path.startswith(ROS_FOLDERS):
             continue
         for line, module in found:
             if _is_ros(module) or _is_of(module, "walk_ros"):
