@@ -8,8 +8,8 @@ import stat
 from pathlib import Path
 
 from walk_building.errors import BuildingError
-from walk_building.loaders.assemble import assemble
 from walk_building.fingerprint import content_hash
+from walk_building.loaders.assemble import assemble
 from walk_building.loaders.ifc import load_ifc
 from walk_building.loaders.mesh import load_mesh
 from walk_building.loaders.raw import Loader, PartFilter, RawMesh, RawModel
