@@ -40,7 +40,7 @@ def build(layout: Layout, machine: Machine) -> None:
     del machine
     try:
         with StageLine("headset page", 2) as line:
-            env = _node_environment(layout)
+            env = node_environment(layout)
             line.update(0, "packages")
             _npm(layout, env, "ci", "--no-audit", "--no-fund", "--fetch-retries=1", "--fetch-timeout=20000")
             line.update(1, "page")
@@ -71,7 +71,12 @@ def good_node(node: str | None) -> bool:
     return (20, 19) <= version < (21, 0) or version >= (22, 12)
 
 
-def _node_environment(layout: Layout) -> dict[str, str]:
+def node_environment(layout: Layout) -> dict[str, str]:
+    """Returns an environment in which a Node that Vite runs on comes first: the machine's, or the packed one.
+
+    Raises:
+        SetupError: There is none.
+    """
     env = venv_environment(layout, os.environ, wheels=False)
     env.pop("NODE_ENV", None)  # "production" would leave the compiler out
     if good_node(shutil.which("node")) and shutil.which("npm"):

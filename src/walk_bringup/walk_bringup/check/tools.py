@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
+from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.bootstrap.layout import Layout
+from walk_bringup.bootstrap.page import node_environment
 
 CORES = (
     "walk_building",
@@ -32,6 +35,19 @@ def run_tool(layout: Layout, command: tuple[str, ...]) -> tuple[bool, str]:
     done = subprocess.run(
         [sys.executable, "-m", *command, *map(str, targets)], cwd=layout.root, capture_output=True, text=True
     )
+    return done.returncode == 0, (done.stdout + done.stderr).strip()
+
+
+def check_page(layout: Layout) -> tuple[bool, str]:
+    """Type-checks the page; returns whether the compiler was content, and what it said."""
+    if not (layout.web / "node_modules").is_dir():
+        return False, f"{layout.web} has no node_modules: the page was not built; ./walk setup tries again"
+    try:
+        env = node_environment(layout)
+    except SetupError as error:
+        return False, str(error)
+    npm = shutil.which("npm", path=env["PATH"]) or "npm"
+    done = subprocess.run([npm, "run", "--silent", "check"], cwd=layout.web, env=env, capture_output=True, text=True)
     return done.returncode == 0, (done.stdout + done.stderr).strip()
 
 

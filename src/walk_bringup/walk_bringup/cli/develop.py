@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import random
 import sys
@@ -12,9 +13,12 @@ import time
 import click
 
 from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.bootstrap.layout import Layout
+from walk_bringup.bootstrap.page import node_environment
+from walk_bringup.check.browser import ensure_browser
 from walk_bringup.check.rules import broken_rules
-from walk_bringup.check.tools import TOOLS, run_tool
+from walk_bringup.check.tools import TOOLS, check_page, run_tool
 
 _PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
 # Above 101 the ports of a domain reach into those that Linux gives to outgoing connections.
@@ -38,14 +42,23 @@ def test(arguments: tuple[str, ...]) -> int:
     os.environ["ROS_DOMAIN_ID"] = str(random.choice(_DOMAINS))
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.chdir(root)
+    if _touches_the_page(arguments):
+        ensure_browser()
+        with contextlib.suppress(SetupError):  # without Node the page's tests say that they are skipped
+            os.environ["PATH"] = node_environment(Layout.here())["PATH"]
     sys.stdout.flush()
     return os.execv(sys.executable, [sys.executable, "-m", "pytest", *arguments])
+
+
+def _touches_the_page(arguments: tuple[str, ...]) -> bool:
+    named = [argument for argument in arguments if argument.startswith("tests")]
+    return not named or any("page" in argument for argument in named)
 
 
 @click.command(short_help=COMMANDS["check"])
 @click.option("--fix", is_flag=True, help="Let ruff format and mend what it can first.")
 def check(fix: bool) -> int:
-    """Check format, lint, types and the rules of the house.
+    """Check format, lint, types (Python and the page's TypeScript) and the rules of the house.
 
     The rules: only node.py files and walk_ros import ROS; each engine is imported in one file; every source file
     begins with the SPDX header.
@@ -65,6 +78,10 @@ def check(fix: bool) -> int:
         ok, output = run_tool(layout, command)
         failed += not ok
         _tell(name, ok, output, time.monotonic() - started)
+    started = time.monotonic()
+    ok, output = check_page(layout)
+    failed += not ok
+    _tell("tsc --strict", ok, output, time.monotonic() - started)
     started = time.monotonic()
     broken = broken_rules(layout)
     _tell("rules", not broken, "\n".join(broken), time.monotonic() - started)
