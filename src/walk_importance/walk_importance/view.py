@@ -4,6 +4,11 @@
 
 from __future__ import annotations
 
+import functools
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
 import numba
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +22,7 @@ _PITCHES_RAD = (np.radians(-20.0), 0.0, np.radians(15.0))
 _FIELD_OF_VIEW_RAD = np.radians(90.0)  # what a headset shows at once
 _FAR_M = 15.0
 _STEPS = 15
+_WORTH_SHARING = 200  # rays; fewer are cast before another thread has begun
 _TOUCH_M = 1e-6  # a surface this near the target is the target's own
 
 
@@ -29,7 +35,13 @@ def view_yaws(geometry: Geometry, importance_map: ImportanceMap, eyes: NDArray[n
     yaw = np.arange(_YAWS) * (2 * np.pi / _YAWS)
     grid, importance = importance_map.grid, importance_map.importance
     gain = np.zeros((len(eyes), _YAWS))
-    _look_around(geometry.bvh, eyes, yaw, importance, grid.origin, grid.voxel_size_m, importance.min(), gain)
+    floor = importance.min()
+
+    def look(low: int, high: int) -> None:
+        some, into = eyes[low:high], gain[low:high]
+        _look_around(geometry.bvh, some, yaw, importance, grid.origin, grid.voxel_size_m, floor, into)
+
+    _share_out(look, len(eyes))
     half = round(_FIELD_OF_VIEW_RAD / (2 * np.pi) * _YAWS / 2)
     window = sum(np.roll(gain, shift, axis=1) for shift in range(-half, half + 1))
     return np.asarray(yaw[np.argmax(window, axis=1)])
@@ -70,8 +82,30 @@ def sees(
 ) -> NDArray[np.bool_]:
     """Returns which of `targets` (N, 3) an eye (3,) sees, no farther than `distance_m`."""
     seen = np.zeros(len(targets), bool)
-    _see(geometry.bvh, eye, targets, distance_m, seen)
+
+    def look(low: int, high: int) -> None:
+        _see(geometry.bvh, eye, targets[low:high], distance_m, seen[low:high])
+
+    if len(targets) < _WORTH_SHARING:
+        look(0, len(targets))
+    else:
+        _share_out(look, len(targets))
     return seen
+
+
+def _share_out(work: Callable[[int, int], None], count: int) -> None:
+    """Runs compiled work on ranges of `count` rows, on all cores."""
+    cuts = np.linspace(0, count, _threads() + 1).astype(int).tolist()
+    list(_pool().map(work, cuts[:-1], cuts[1:]))
+
+
+def _threads() -> int:
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@functools.cache
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(_threads(), thread_name_prefix="view")
 
 
 @numba.njit(cache=True, nogil=True)
