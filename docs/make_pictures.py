@@ -3,16 +3,20 @@
 """Draws the pictures of README.md and docs/ from the sample building into docs/images/.
 
 ./walk run is not needed; call it with the environment's Python: .venv/bin/python docs/make_pictures.py
+How visibility grows is drawn from docs/images/visibility_growth.json, which `./walk bench growth` prints: it takes
+minutes on a machine that does nothing else.
 """
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from walk_bringup.sample import sample_path
 from walk_building.progress import no_progress
 from walk_plan.compare.comparison import compare
 from walk_plan.compare.page import method_figures, objective_figures
+from walk_plan.drawing.growth import draw_growth
 from walk_plan.drawing.maps import draw_maps
 from walk_plan.drawing.profiles import draw_profiles
 from walk_plan.drawing.slope import draw_slope
@@ -35,6 +39,8 @@ def main() -> None:
         "maps.png": draw_maps(walkthrough, storeys),
         "profiles.png": draw_profiles(walkthrough),
     }
+    measured = json.loads((FOLDER / "visibility_growth.json").read_text(encoding="utf-8"))
+    figures["visibility_growth.png"] = draw_growth(measured["visibility"])
     comparison = compare(walkthrough)
     figures["objectives.png"] = objective_figures(comparison)[0]
     figures["methods.png"] = method_figures(comparison)[0]

@@ -26,6 +26,7 @@ from walk_building.errors import WalkError
 from walk_building.pipeline import load_building
 from walk_building.progress import no_progress
 from walk_importance.bench import bench as bench_importance
+from walk_importance.bench import growth
 from walk_importance.visibility import Scene
 from walk_importance.visibility.rays import count_voxel_rays
 from walk_plan.along import every
@@ -157,10 +158,16 @@ def _bench_importance(path: Path, repeats: int) -> dict[str, Any]:
     return bench_importance()
 
 
+def _bench_growth(path: Path, repeats: int) -> dict[str, Any]:
+    del path, repeats
+    return {"visibility": growth()}
+
+
 BENCHES: dict[str, Callable[[Path, int], dict[str, Any]]] = {
     "plan": bench_plan,
     "load": _bench_load,
     "importance": _bench_importance,
+    "growth": _bench_growth,
     "tour": _bench_tour,
     "trajectory": _bench_trajectory,
 }
