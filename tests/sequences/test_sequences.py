@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Random editing sessions on three buildings: what is shown is always whole and free, and undo is exact.
 
-WALK_SEQUENCES says how many in all; 1000 is the full run, by hand and for releases.
+WALK_SEQUENCES says how many in all; 1000 is the full run, by hand and for releases. `--junitxml=FILE -o
+junit_family=xunit1` writes for each batch how many sessions there were and how many edits were accepted and refused.
 """
 
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +36,9 @@ def start(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
 
 
 @pytest.mark.parametrize("batch", range(BATCHES))
-def test_any_session_shows_whole_free_paths_and_is_taken_back_exactly(start: Start, batch: int, tmp_path: Path) -> None:
+def test_any_session_shows_whole_free_paths_and_is_taken_back_exactly(
+    start: Start, batch: int, tmp_path: Path, record_property: Callable[[str, object], None]
+) -> None:
     wrong: list[str] = []
     accepted = refused = 0
     share = -(-SEQUENCES // len(BUILDINGS))
@@ -45,5 +49,8 @@ def test_any_session_shows_whole_free_paths_and_is_taken_back_exactly(start: Sta
         session.run(int(np.random.default_rng(seed).integers(2, 9)))
         wrong += session.wrong
         accepted, refused = accepted + session.accepted, refused + session.refused
+    counts = {"sessions": len(range(batch, share, BATCHES)), "accepted": accepted, "refused": refused}
+    for name, count in {**counts, "objections": len(wrong)}.items():
+        record_property(name, count)
     assert not wrong, f"{len(wrong)} objections; the first:\n" + "\n\n".join(wrong[:3])
     assert accepted or share <= batch
