@@ -41,6 +41,7 @@ class Candidates:
 
 
 _SQUARE_M = 0.5  # floor is looked at in squares of this side when asking how much of a room is seen
+_SQUARES = 4000  # about as many at most, in larger squares: each is a ray for every keypoint (our own)
 
 
 def find_candidates(building: Building, importance_map: ImportanceMap) -> Candidates:
@@ -63,7 +64,8 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
     _, first = np.unique(key[order], return_index=True)
     best = np.sort(order[first])
     eyes, room = eyes[best], surface.room[places[best]].astype(np.int64)
-    square, shown = _squares(eyes, room)
+    floor_m2 = len(eyes) * importance_map.grid.voxel_size_m**2
+    square, shown = _squares(eyes, room, max(_SQUARE_M, (floor_m2 / _SQUARES) ** 0.5))
     return Candidates(
         place=places[best],
         eyes=eyes,
@@ -74,9 +76,11 @@ def find_candidates(building: Building, importance_map: ImportanceMap) -> Candid
     )
 
 
-def _squares(eyes: NDArray[np.float64], room: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _squares(
+    eyes: NDArray[np.float64], room: NDArray[np.int64], side_m: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Returns the square of each candidate (C,), and the first candidate in each square (S,); squares go by rooms."""
-    key = np.column_stack([room, np.floor(eyes / _SQUARE_M).astype(np.int64)])
+    key = np.column_stack([room, np.floor(eyes / side_m).astype(np.int64)])
     _, first, square = np.unique(key, axis=0, return_index=True, return_inverse=True)
     return square.reshape(-1), first
 
