@@ -36,6 +36,7 @@ from walk_plan.stages import StageClock, peak_memory_mib
 from walk_plan.summary import as_plain, versions
 from walk_plan.walkthrough import Walkthrough
 from walk_sequencer.bench import bench as bench_tour
+from walk_sequencer.bench_order import fifty, order_gaps
 from walk_trajopt.bench import bench_trajectory
 
 RAY_SOURCES = 64
@@ -43,6 +44,9 @@ RAY_SOURCES = 64
 
 CLOSEST_POINTS = 300
 """Points along the path whose closest points are asked for; the same ones of both ways."""
+
+ORDER_SEED = 5000
+"""Where the instances of the order's gaps begin; no setting of the search was chosen by one of them."""
 
 
 def bench_plan(path: Path, repeats: int) -> dict[str, Any]:
@@ -142,9 +146,10 @@ def _bench_load(path: Path, repeats: int) -> dict[str, Any]:
 
 
 def _bench_tour(path: Path, repeats: int) -> dict[str, Any]:
-    del repeats
     walkthrough = _stages(path)[0]
-    return dict(bench_tour(walkthrough.building, walkthrough.suggestion.positions))
+    figures = bench_tour(walkthrough.building, walkthrough.suggestion.positions)
+    made_up = {"order": order_gaps(ORDER_SEED)}
+    return {**figures, "fifty": fifty(walkthrough.building, ORDER_SEED, repeats), **made_up}
 
 
 def _bench_trajectory(path: Path, repeats: int) -> dict[str, Any]:
