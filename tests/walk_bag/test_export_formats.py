@@ -18,9 +18,12 @@ import yaml
 from pxr import Gf, Usd, UsdGeom
 from scenes import box, model_of, two_rooms
 from scipy.spatial.transform import Rotation
+from vtkmodules.vtkCommonCore import vtkLogger
 
 from walk_bag.errors import ExportError
 from walk_bag.exports import EXPORTERS, export_ride
+from walk_bag.exports.look import coloured
+from walk_bag.exports.renderer import Renderer
 from walk_bag.exports.ride import ExportConfig, Ride
 from walk_building import Model, Part
 from walk_building.errors import ParameterError
@@ -147,6 +150,32 @@ def test_progress_of_a_video_rises_to_the_end(ride: Ride, tmp_path: Path) -> Non
     export_ride(ride, "mp4", tmp_path / "a.mp4", ExportConfig(fps=2, width=64, height=64),
                 lambda stage, fraction: told.append(fraction))  # fmt: skip
     assert told == sorted(told) and told[-1] == 1.0 and len(told) == 10
+
+
+def test_smooth_edges_are_drawn_where_they_are_asked_for(ride: Ride) -> None:
+    found = {}
+    for samples in (1, 4):
+        with Renderer(ride.model, dataclasses.replace(CONFIG, samples=samples)) as renderer:
+            (picture,) = renderer.pictures(ride.positions[:1], ride.quat_xyzw[:1])
+        found[samples] = len(np.unique(picture.reshape(-1, 3), axis=0))
+    assert found[4] > 1.2 * found[1]
+
+
+def test_a_face_has_the_light_of_the_way_it_is_turned() -> None:
+    part = Part(name="box", kind="IfcWall", first_face=0, n_faces=12)
+    solid, glass = coloured(dataclasses.replace(model_of([box((0, 0, 0), (1, 1, 1))]), parts=(part,)))
+    faces = solid.corners.reshape(-1, 3, 3)
+    normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]).round(6)
+    shades = {tuple(n): tuple(c) for n, c in zip(normals, solid.rgb[::3].tolist(), strict=True)}
+    assert len(shades) == 6 == len(set(shades.values())) and len(glass.corners) == 0
+    assert shades[0.0, 0.0, 1.0] > shades[0.0, 0.0, -1.0]
+
+
+def test_the_renderer_leaves_the_librarys_messages_as_they_were(ride: Ride) -> None:
+    before = vtkLogger.GetCurrentVerbosityCutoff()
+    with Renderer(ride.model, CONFIG) as renderer:
+        list(renderer.pictures(ride.positions[:1], ride.quat_xyzw[:1]))
+    assert vtkLogger.GetCurrentVerbosityCutoff() == before
 
 
 def test_a_ride_without_a_building_is_a_camera_alone(ride: Ride, tmp_path: Path) -> None:

@@ -41,7 +41,7 @@ EXPORTERS: dict[str, Exporter] = {
                     shows_building=True),
     "mp4": Exporter(suffix=".mp4", doc="video of the ride", home="mp4.write_mp4", shows_building=True,
                     needs_building=True),
-    "enscape": Exporter(suffix=".xml", doc="camera path in XML, as Enscape keeps it", home="enscape.write_enscape"),
+    "enscape": Exporter(suffix=".xml", doc="camera path in XML in the style of Enscape", home="enscape.write_enscape"),
     "blender": Exporter(suffix=".json", doc="camera, frame by frame, for Blender", home="blender.write_blender"),
     "csv": Exporter(suffix=".csv", doc="table of times and poses", home="trajectory_csv.write_trajectory_csv"),
     "ros": Exporter(suffix=".yaml", doc="MultiDOFJointTrajectory in YAML", home="ros_yaml.write_ros_yaml"),

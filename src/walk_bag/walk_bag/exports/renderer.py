@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Iterator
 from types import TracebackType
 from typing import Self
@@ -11,78 +12,75 @@ from typing import Self
 import numpy as np
 import pyvista
 from numpy.typing import NDArray
-from vtkmodules.vtkCommonCore import vtkLogger
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLogger, vtkUnsignedCharArray
 
 from walk_bag.exports.axes import ahead
 from walk_bag.exports.glb import kinds
+from walk_bag.exports.look import GLASS_OPACITY, SKY_HIGH, SKY_LOW, Coloured, coloured
 from walk_bag.exports.ride import ExportConfig
 from walk_building.model import Model
 
-# By what the name of a kind begins with; the first that fits.
-_COLOURS = (
-    ("Wall", (0.91, 0.90, 0.87)),
-    ("Slab", (0.70, 0.66, 0.60)),
-    ("Covering", (0.86, 0.85, 0.82)),
-    ("Roof", (0.72, 0.58, 0.50)),
-    ("Stair", (0.62, 0.60, 0.58)),
-    ("Ramp", (0.62, 0.60, 0.58)),
-    ("Railing", (0.45, 0.47, 0.50)),
-    ("Column", (0.78, 0.77, 0.75)),
-    ("Beam", (0.62, 0.50, 0.38)),
-    ("Door", (0.60, 0.44, 0.30)),
-    ("Window", (0.62, 0.76, 0.84)),
-    ("CurtainWall", (0.62, 0.76, 0.84)),
-    ("Plate", (0.62, 0.76, 0.84)),
-    ("Furni", (0.66, 0.50, 0.36)),
-    ("Sanitary", (0.93, 0.94, 0.95)),
-)
-_OTHER = (0.80, 0.79, 0.76)
-_GLASS = ("Window", "CurtainWall", "Plate")
-_SKY_LOW, _SKY_HIGH = (0.93, 0.95, 0.97), (0.60, 0.74, 0.88)
 # Corners sharper than this are drawn as lines, which tell walls of one colour apart.
 _EDGE_DEG = 35.0
+_EDGE_COLOUR = (0.25, 0.25, 0.27)
 _NEAR_M = 0.05
 
 
 class Renderer:
-    """Draws a building as an eye in it sees it; a context manager."""
+    """Draws a building as an eye in it sees it; a context manager.
+
+    The scene is three bodies (what is solid, what is glass, the edges) that do not change; between two pictures only
+    the camera moves, and each is drawn once and read from where it was drawn.
+    """
 
     def __init__(self, model: Model, config: ExportConfig) -> None:
         """Sets the scene up; the first picture takes longer than the others."""
-        # The libraries look for a display first and complain to stderr that there is none, before they do without.
-        vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
-        size = (config.width, config.height)
-        self._plotter = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
-        self._plotter.set_background(_SKY_LOW, top=_SKY_HIGH)
-        self._plotter.add_light(pyvista.Light(light_type="headlight", intensity=0.62))
-        for direction, intensity in (((0.4, 0.3, 1.0), 0.34), ((-0.5, -0.8, 0.3), 0.22), ((0.2, 0.1, -1.0), 0.5)):
-            self._plotter.add_light(pyvista.Light(position=direction, light_type="scene light", intensity=intensity))
-        for name, triangles in kinds(model):
-            self._add(name, model.vertices, triangles)
-        camera = self._plotter.camera
-        camera.view_angle = float(np.rad2deg(config.field_of_view_rad))
+        self._size = (config.width, config.height)
+        with _without_a_display():
+            self._plotter = pyvista.Plotter(off_screen=True, window_size=self._size, lighting="none")
+        self._window = self._plotter.render_window
+        self._window.SetMultiSamples(config.samples if config.samples > 1 else 0)
+        self._plotter.set_background(SKY_LOW, top=SKY_HIGH)
+        solid, glass = coloured(model)
+        self._add(solid, 1.0)
+        self._add(glass, GLASS_OPACITY)
+        self._add_edges(model)
+        self._plotter.camera.view_angle = float(np.rad2deg(config.field_of_view_rad))
         self._far_m = max(10.0, 2.0 * float(np.linalg.norm(np.ptp(model.vertices, axis=0))))
+        self._pixels = vtkUnsignedCharArray()
 
-    def _add(self, name: str, vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> None:
-        used, index = np.unique(triangles, return_inverse=True)
-        mesh = pyvista.PolyData.from_regular_faces(vertices[used], index.reshape(-1, 3)).clean()
-        colour = next((rgb for start, rgb in _COLOURS if name.startswith(start)), _OTHER)
-        glass = name.startswith(_GLASS)
-        self._plotter.add_mesh(mesh, color=colour, opacity=0.35 if glass else 1.0, ambient=0.18, specular=0.0)
-        edges = mesh.extract_feature_edges(_EDGE_DEG, non_manifold_edges=False, manifold_edges=False)
-        if edges.n_cells:
-            self._plotter.add_mesh(edges, color=(0.25, 0.25, 0.27), line_width=1.0, lighting=False)
+    def _add(self, body: Coloured, opacity: float) -> None:
+        if len(body.corners):
+            mesh = pyvista.PolyData.from_regular_faces(body.corners, np.arange(len(body.corners)).reshape(-1, 3))
+            mesh["rgb"] = body.rgb
+            self._plotter.add_mesh(mesh, scalars="rgb", rgb=True, opacity=opacity, lighting=False)
+
+    def _add_edges(self, model: Model) -> None:
+        # Kind by kind: where a wall stands on a slab, an edge of four faces would count as none.
+        found = [_edges(model.vertices, triangles) for _, triangles in kinds(model)]
+        found = [edges for edges in found if edges.n_cells]
+        if found:
+            edges = pyvista.merge(found, merge_points=False)
+            self._plotter.add_mesh(edges, color=_EDGE_COLOUR, line_width=1.0, lighting=False)
 
     def pictures(self, positions: NDArray[np.float64], quat_xyzw: NDArray[np.float64]) -> Iterator[NDArray[np.uint8]]:
         """Yields a picture (height, width, 3) for each eye position (n, 3) and orientation (n, 4)."""
         camera = self._plotter.camera
-        for position, look in zip(positions, ahead(quat_xyzw), strict=True):
+        for number, (position, look) in enumerate(zip(positions, ahead(quat_xyzw), strict=True)):
             camera.position = tuple(position)
             camera.focal_point = tuple(position + look)
             camera.up = (0.0, 0.0, 1.0)
             camera.clipping_range = (_NEAR_M, self._far_m)
-            self._plotter.render()
-            yield np.asarray(self._plotter.screenshot(return_img=True))
+            with _without_a_display() if number == 0 else contextlib.nullcontext():
+                self._window.Render()
+            yield self._picture()
+
+    def _picture(self) -> NDArray[np.uint8]:
+        width, height = self._size
+        self._window.GetPixelData(0, 0, width - 1, height - 1, 0, self._pixels, 0)
+        # The library counts rows from below.
+        return np.ascontiguousarray(vtk_to_numpy(self._pixels).reshape(height, width, 3)[::-1])
 
     def __enter__(self) -> Self:
         return self
@@ -91,3 +89,20 @@ class Renderer:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._plotter.close()
+
+
+def _edges(vertices: NDArray[np.float64], triangles: NDArray[np.int32]) -> pyvista.PolyData:
+    used, index = np.unique(triangles, return_inverse=True)
+    mesh = pyvista.PolyData.from_regular_faces(vertices[used], index.reshape(-1, 3)).clean()
+    return mesh.extract_feature_edges(_EDGE_DEG, non_manifold_edges=False, manifold_edges=False)
+
+
+@contextlib.contextmanager
+def _without_a_display() -> Iterator[None]:
+    """Keeps the library from complaining, while it opens a window, that there is no display; it does without one."""
+    before = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)
+    try:
+        yield
+    finally:
+        vtkLogger.SetStderrVerbosity(before)

@@ -43,6 +43,9 @@ class ExportConfig(Config):
     )
     width: int = param(1280, "width of a video; even, as its coding needs", unit="pixel", low=64, high=7680)
     height: int = param(720, "height of a video; even, as its coding needs", unit="pixel", low=64, high=4320)
+    samples: int = param(
+        1, "samples a pixel of a video; 4 smooths the edges and takes two to three times as long", low=1, high=8
+    )
     field_of_view_rad: float = param(
         1.2, "upright angle of view, about that of a phone's wide camera", unit="rad", low=0.1, high=2.6
     )
