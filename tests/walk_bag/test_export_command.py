@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -13,9 +14,13 @@ import trimesh
 from scenes import two_rooms
 
 from walk_bag import BagWriter
+from walk_bag.storage import read_bag
 from walk_bag.walkthrough import bag_topic
 from walk_bringup.cli.main import main
+from walk_building.loaders import load_model
+from walk_building.model import LoadOptions
 from walk_ros import conversions as c
+from walk_ros.diagnostics import Diagnostics
 from walk_ros.raw import to_bytes
 
 STAMP = 1_700_000_000_000_000_000
@@ -68,6 +73,43 @@ def test_another_building_than_the_planned_one_is_noticed(bag: Path, capsys: pyt
     bag.with_name("report.json").write_text(json.dumps(facts))
     assert main(["export", str(bag), "--to", "glb", "--building", str(file)]) == 0
     assert "is not what the walk was planned in" in capsys.readouterr().out
+
+
+def name_building(bag: Path, file: Path, options: LoadOptions) -> None:
+    """Puts into the bag what a plan tells of its building."""
+    told = Diagnostics("/walk/plan")
+    told.building(str(file), "abc")
+    told.note(content_hash=load_model(file, options).content_hash, load=json.dumps(dataclasses.asdict(options)),
+              offset_m="[10.0, 0.0, 0.0]")  # fmt: skip
+    messages = list(read_bag(bag))
+    with BagWriter(bag) as writer:
+        writer.write(bag_topic("/diagnostics"), STAMP, to_bytes(told.to_msg(STAMP)))
+        for message in messages:
+            writer.write(message.topic, message.stamp_ns, message.data)
+
+
+def test_a_bag_that_names_its_building_needs_no_other_word(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = bag.with_name("rooms.ply")
+    trimesh.util.concatenate(two_rooms()).export(file)
+    name_building(bag, file, LoadOptions(units_m=0.5))
+    assert main(["export", str(bag), "--to", "glb"]) == 0
+    assert "note" not in capsys.readouterr().out
+    width = np.ptp(trimesh.load(bag.with_name("tour-glb.glb")).geometry["Building"].bounds, axis=0)[0]
+    assert width == pytest.approx(0.5 * np.ptp(trimesh.load(file).bounds, axis=0)[0])
+
+
+def test_a_building_that_was_changed_or_is_gone_is_said(bag: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = bag.with_name("rooms.ply")
+    trimesh.util.concatenate(two_rooms()).export(file)
+    name_building(bag, file, LoadOptions())
+    trimesh.util.concatenate(two_rooms()[:-1]).export(file)
+    assert main(["export", str(bag), "--to", "glb"]) == 0
+    assert "is not what the walk was planned in" in capsys.readouterr().out
+    file.unlink()
+    assert main(["export", str(bag), "--to", "glb"]) == 0
+    assert "is not there any more; --building FILE shows it" in capsys.readouterr().out
+    assert main(["export", str(bag), "--to", "csv"]) == 0
+    assert rows(bag.with_name("tour-csv.csv"))[0, 1] == pytest.approx(11.0)
 
 
 @pytest.mark.parametrize(

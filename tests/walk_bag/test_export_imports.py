@@ -15,7 +15,7 @@ from walk_bag import BagError, BagWriter
 from walk_bag.errors import ExportError
 from walk_bag.exports import export_ride
 from walk_bag.exports.ride import Ride
-from walk_bag.imports import load_ride, read_keypoints, recorded_building
+from walk_bag.imports import RecordedBuilding, load_ride, read_keypoints, recorded_building
 from walk_bag.walkthrough import bag_topic
 from walk_ros import conversions as c
 from walk_ros.diagnostics import Diagnostics
@@ -139,9 +139,9 @@ def test_the_building_is_read_from_the_diagnostics(tmp_path: Path) -> None:
     told.building("/data/house.ifc", "abc")
     with BagWriter(tmp_path / "d.mcap") as writer:
         writer.write(bag_topic("/diagnostics"), STAMP, to_bytes(told.to_msg(STAMP)))
-    assert recorded_building(tmp_path / "d.mcap") == ("/data/house.ifc", "abc")
+    assert recorded_building(tmp_path / "d.mcap") == RecordedBuilding(path="/data/house.ifc", hash="abc")
     write_bag(tmp_path / "k.mcap", a_ride())
-    assert recorded_building(tmp_path / "k.mcap") == ("", "")
+    assert recorded_building(tmp_path / "k.mcap") == RecordedBuilding()
 
 
 def test_the_json_of_keypoints_is_plain(tmp_path: Path) -> None:

@@ -22,7 +22,8 @@ from walk_bag.exports.glb import write_glb
 from walk_bag.exports.resample import resample
 from walk_bag.exports.shapes import tube
 from walk_bag.exports.trajectory_csv import write_trajectory_csv
-from walk_plan.outputs import ride_of
+from walk_bag.imports import recorded_building
+from walk_plan.outputs import ride_of, write_tour_bag
 from walk_plan.report import write_report
 from walk_plan.summary import as_plain, summary
 from walk_plan.walkthrough import Walkthrough
@@ -205,3 +206,12 @@ def test_summary_is_json_with_every_figure(walkthrough: Walkthrough) -> None:
 def test_what_is_not_finite_becomes_null() -> None:
     value = {"a": np.float32("nan"), "b": (np.int64(3), float("inf")), "c": np.array([[1.5]])}
     assert as_plain(value) == {"a": None, "b": [3, None], "c": [[1.5]]}
+
+
+def test_the_bag_of_a_plan_names_its_building(far_away: Walkthrough, tmp_path: Path) -> None:
+    write_tour_bag(tmp_path / "tour.mcap", far_away)
+    named = recorded_building(tmp_path / "tour.mcap")
+    model = far_away.building.model
+    assert Path(named.path) == model.source.resolve() and named.hash == far_away.building.hash
+    assert named.content_hash == model.content_hash and named.load == far_away.config.load
+    assert named.offset_m == pytest.approx(model.offset_m)

@@ -16,6 +16,9 @@ from numpy.typing import NDArray
 from walk_bag.errors import BagError, ExportError
 from walk_bag.exports.ride import Ride
 from walk_bag.storage import read_bag
+from walk_building.errors import WalkError
+from walk_building.model import LoadOptions
+from walk_ros.conversions.checks import finite_array
 from walk_ros.conversions.poses import keypoints_from_msg, viewpoint_from_msg
 from walk_ros.conversions.trajectories import trajectory_from_msg
 from walk_ros.raw import from_bytes
@@ -103,15 +106,41 @@ def _continuous(quat: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(quat * np.concatenate([[1.0], np.cumprod(flips)])[:, None])
 
 
-def recorded_building(bag: Path | str) -> tuple[str, str]:
-    """Returns path and hash of the building that the nodes told of in a bag's diagnostics, "" where they did not."""
-    path = building_hash = ""
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class RecordedBuilding:
+    """The building that a bag names; "" and None where it does not say."""
+
+    path: str = ""
+    hash: str = ""
+    content_hash: str = ""  # of the file and the load options
+    load: LoadOptions | None = None
+    offset_m: NDArray[np.float64] | None = None  # (3,) see Model
+
+
+def recorded_building(bag: Path | str) -> RecordedBuilding:
+    """Returns the building that a plan, or the nodes while they were recorded, told of in a bag's diagnostics.
+
+    Raises:
+        BagError: The bag cannot be read, or what it says of the building is not sound.
+    """
+    told: dict[str, str] = {}
     for message in read_bag(bag, {"/diagnostics"}):
         for status in from_bytes(message.data, message.topic.type_name).status:
-            values = {entry.key: entry.value for entry in status.values}
-            path = values.get("building") or path
-            building_hash = values.get("building_hash") or building_hash
-    return path, building_hash
+            values = {entry.key: entry.value for entry in status.values if entry.value}
+            if "building" in values or "building_hash" in values:
+                told |= values
+    try:
+        load = LoadOptions(**json.loads(told["load"])) if "load" in told else None
+        offset = finite_array("/diagnostics", "offset_m", [json.loads(told.get("offset_m", "[0, 0, 0]"))], 3)[0]
+    except (ValueError, TypeError, WalkError) as error:
+        raise BagError(bag, f"what it says of the building cannot be used: {error}") from error
+    return RecordedBuilding(
+        path=told.get("building", ""),
+        hash=told.get("building_hash", ""),
+        content_hash=told.get("content_hash", ""),
+        load=load,
+        offset_m=offset if "offset_m" in told else None,
+    )
 
 
 def read_keypoints(path: Path | str) -> ImportedKeypoints:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from walk_bag.storage import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.conversions.importance import ImportanceMapLike
 from walk_ros.conversions.trajectories import TrajectoryLike
+from walk_ros.diagnostics import Diagnostics
 from walk_ros.raw import policies, to_bytes
 from walk_ros.results import (
     TopicMessages,
@@ -42,6 +43,7 @@ def walkthrough_messages(
     tour: TourLike,
     trajectory: TrajectoryLike,
     stamp_ns: int,
+    building: Mapping[str, str] | None = None,
 ) -> TimedMessages:
     """Returns what the graph publishes for a planned walkthrough, and the walk itself on `viewpoint`.
 
@@ -55,6 +57,8 @@ def walkthrough_messages(
         tour: Through the keypoints; its indices are theirs.
         trajectory: Along the tour.
         stamp_ns: When the walk begins; names the one revision of everything.
+        building: What names the building, for a status on /diagnostics: `building`, its path, and `building_hash` as
+            the nodes tell them, and what else a reader needs to find and to place it; None tells nothing.
     """
     at_once: TopicMessages = [
         *map_messages(importance_map, floors_z, eye_height_m, stamp_ns),
@@ -63,7 +67,16 @@ def walkthrough_messages(
         *path_messages(trajectory, stamp_ns),
     ]
     walk = [(at, "viewpoint", msg) for at, msg in viewpoint_messages(trajectory, stamp_ns)]
-    return [(stamp_ns, topic, msg) for topic, msg in at_once] + walk
+    told: TopicMessages = [("/diagnostics", _status(building, stamp_ns))] if building is not None else []
+    return [(stamp_ns, topic, msg) for topic, msg in [*told, *at_once]] + walk
+
+
+def _status(building: Mapping[str, str], stamp_ns: int) -> Any:
+    status = Diagnostics("/walk/plan")
+    status.state("planned")
+    status.building(building["building"], building["building_hash"])
+    status.note(**building)
+    return status.to_msg(stamp_ns)
 
 
 def write_walkthrough_bag(path: Path | str, messages: TimedMessages) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import time
 from collections.abc import Callable
@@ -41,8 +42,21 @@ def write_tour_bag(path: Path, walkthrough: Walkthrough) -> None:
         tour=walkthrough.tour,
         trajectory=walkthrough.trajectory,
         stamp_ns=STAMP_NS,
+        building=_named(walkthrough),
     )
     write_walkthrough_bag(path, messages)
+
+
+def _named(walkthrough: Walkthrough) -> dict[str, str]:
+    """Returns what `walk_bag.imports.recorded_building` needs to find the building again, and to see it changed."""
+    model, load = walkthrough.building.model, walkthrough.config.load
+    return {
+        "building": str(model.source.resolve()),
+        "building_hash": walkthrough.building.hash,
+        "content_hash": model.content_hash,
+        "load": json.dumps(dataclasses.asdict(load)),
+        "offset_m": json.dumps(model.offset_m.tolist()),
+    }
 
 
 def ride_of(walkthrough: Walkthrough) -> Ride:

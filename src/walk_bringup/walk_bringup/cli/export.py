@@ -32,7 +32,8 @@ _FORMATS = "\n".join(f"  {name:<15} {exporter.doc} ({exporter.suffix})" for name
 def _with_config(command: click.Command) -> click.Command:
     for field in dataclasses.fields(ExportConfig):
         meta = field.metadata
-        text = f"{meta['doc']} [{meta['unit']}, {meta['low']:g} to {meta['high']:g}] (default: {field.default:g})"
+        limits = ", ".join(filter(None, (meta["unit"], f"{meta['low']:g} to {meta['high']:g}")))
+        text = f"{meta['doc']} [{limits}] (default: {field.default:g})"
         name = field.name.removesuffix("_rad").replace("_", "-")
         command.params.append(click.Option([f"--{name}", field.name], type=type(field.default), help=text))
     return command
@@ -77,22 +78,25 @@ def _placed(
     ride: Ride, bag: Path, building: Path | None, options: LoadOptions, shows_building: bool
 ) -> tuple[Ride, list[str]]:
     """Returns the ride with its building, or at least with where that lies, and what the user has to know of it."""
-    named, told_hash = recorded_building(bag)
+    named = recorded_building(bag)
     report = _report_beside(bag)
-    ride = dataclasses.replace(ride, building_hash=told_hash or report.get("hash", ""))
-    file = building or (Path(named) if named and Path(named).is_file() else None)
+    content = named.content_hash or report.get("content_hash", "")
+    ride = dataclasses.replace(ride, building_hash=named.hash or report.get("hash", ""))
+    file = building or (Path(named.path) if named.path and Path(named.path).is_file() else None)
     if file is not None:
-        model = load_model(file, options)
+        # Options on the command line go before those of the plan.
+        model = load_model(file, named.load if named.load is not None and options == LoadOptions() else options)
         placed = dataclasses.replace(ride, model=model, offset_m=model.offset_m, building_name=file.name)
-        content = report.get("content_hash", model.content_hash)
-        changed = content != model.content_hash
+        changed = bool(content) and content != model.content_hash
         return placed, [f"{file} is not what the walk was planned in, or was loaded otherwise"] if changed else []
-    if "offset_m" in report:
-        placed = dataclasses.replace(ride, offset_m=report["offset_m"], building_name=report.get("file", ""))
-        why = f"the bag does not hold {report.get('file')}; --building FILE shows it"
-        return placed, [why] if shows_building else []
+    offset = named.offset_m if named.offset_m is not None else report.get("offset_m")
+    name = named.path or report.get("file", "")
+    if offset is not None:
+        placed = dataclasses.replace(ride, offset_m=offset, building_name=Path(name).name)
+        gone = f"{name} is not there any more" if named.path else f"the bag does not hold {name}"
+        return placed, [f"{gone}; --building FILE shows it"] if shows_building else []
     return ride, [
-        f"the building is not known ({named or 'the bag names none'}): positions are those of the planner, near the "
+        f"the building is not known ({name or 'the bag names none'}): positions are those of the planner, near the "
         "origin; --building FILE gives the building's own"
     ]
 
