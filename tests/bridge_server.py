@@ -26,6 +26,10 @@ class FakeGraph:
         self.published = []
         self.called = []
         self.silent = False
+        self.heard = True
+
+    def is_heard(self, topic):
+        return self.heard
 
     def publish(self, topic, msg):
         self.published.append((topic, msg))

@@ -148,6 +148,59 @@ def test_ray_moves_a_keypoint_at_full_scale(headset):
     assert 0.1 < distance(moved["start"], moved["end"]) < 0.6
 
 
+def test_chosen_keypoint_looks_where_the_ray_meets_the_building(headset):
+    page = headset
+    seen = page.js("""
+      const { store, actions } = walk.client;
+      const { id, position: [x, y, z] } = store.state.keypoints[0];
+      walk.room.rig.headTo(x, z - walk.stage.eyeHeightM, -y);
+      await hands.frames(2);
+      walk.stage.miniature.placeAt(walk.view.eye.clone().add({ x: 0, y: 0, z: 1.2 }), 0);
+      actions.select(id);
+      actions.useTool("lookAt");
+      const from = walk.view.eye.toArray();
+      // Towards the wall at y = 4, steeply enough to be no keypoint's ray.
+      hands.aim("right", from, [from[0], from[1] + 0.2, -4]);
+      await hands.frames(3);
+      await hands.click("right", "trigger");
+      await hands.answered();
+      await hands.until(() => hands.keypoint(id).lookAt, "what to look at");
+      walk.room.bringToHand();
+      return { at: hands.keypoint(id).lookAt, x, tool: store.state.selection.tool };
+    """)
+    assert seen["tool"] == "edit"
+    assert seen["at"][:2] == pytest.approx([seen["x"], 3.9], abs=0.02)
+
+
+def test_new_keypoint_goes_to_the_best_place_around_where_that_is_wanted(headset):
+    page = headset
+    added = page.js("""
+      const { store, actions } = walk.client;
+      walk.stage.miniature.clip.cutStorey(0);
+      walk.desktop.panel.open("tour");
+      walk.room.travel.goTo(6, 2, 0, false);
+      await hands.frames(2);
+      walk.room.bringToHand();
+      await hands.frames(3);
+      actions.set({ addNear: true });
+      const before = store.state.keypoints.map((one) => one.id);
+      await hands.atPanel("right", "add");
+      await hands.button("right", "trigger", 1);
+      const { place } = walk.stage.inMiniature;
+      // In the corner, where nobody can stand.
+      const goal = walk.view.eye.clone().set(11.85, 0.15, 1.0);
+      await hands.reach("right", place.toRoom(goal, goal).toArray());
+      await hands.button("right", "trigger", 0);
+      await hands.answered();
+      actions.set({ addNear: false });
+      walk.stage.miniature.clip.open();
+      const fresh = store.state.keypoints.find((one) => !before.includes(one.id));
+      return { at: fresh?.position, refusals: store.state.refusals.map((one) => one.reason) };
+    """)
+    assert added["refusals"] == []
+    assert distance(added["at"][:2], [11.85, 0.15]) > 0.1
+
+
 def test_keypoint_is_added_by_dragging_it_from_the_panel_into_the_miniature(headset):
     page = headset
     added = page.js("""

@@ -167,6 +167,41 @@ def test_of_fast_drags_the_newest_wins_and_the_release_is_last(run, tmp_path):
     run(scene())
 
 
+def test_edits_wait_in_order_until_the_planner_hears_them(run, tmp_path):
+    async def scene():
+        async with serving(tmp_path) as served, served.ws() as ws:
+            served.graph.heard = False
+            for x in range(3):
+                edit = {"marker_name": "3", "event_type": 5, "pose": {"position": {"x": x}}}
+                await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
+            await asyncio.sleep(0.1)
+            assert served.graph.on("/walk/keypoint_edits") == []
+            served.graph.heard = True
+            await asyncio.sleep(0.1)
+            assert [m.pose.position.x for m in served.graph.on("/walk/keypoint_edits")] == [0.0, 1.0, 2.0]
+
+    run(scene())
+
+
+def test_an_edit_that_nobody_hears_in_time_is_told_and_never_sent(run, tmp_path, monkeypatch):
+    monkeypatch.setattr("walk_vr_bridge.edits.EDIT_TIMEOUT_S", 0.05)
+
+    async def scene():
+        async with serving(tmp_path) as served, served.ws() as ws:
+            await ws.send_json({"op": "subscribe", "topic": "/walk/edit_results"})
+            served.graph.heard = False
+            edit = {"marker_name": "3", "event_type": 5, "header": {"stamp": {"sec": 7}}}
+            await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
+            await asyncio.sleep(0.2)
+            served.site.operations.sweep()
+            assert "has not answered" in (await receive(ws))["msg"]["message"]
+            served.graph.heard = True
+            await asyncio.sleep(0.1)
+            assert served.graph.on("/walk/keypoint_edits") == []
+
+    run(scene())
+
+
 def test_an_unsound_edit_is_refused_with_the_reason(run, tmp_path):
     async def scene():
         async with serving(tmp_path) as served, served.ws() as ws:

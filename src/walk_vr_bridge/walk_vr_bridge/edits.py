@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
-from collections import OrderedDict
+from collections import OrderedDict, deque
 from collections.abc import Callable
 from typing import Any
 
@@ -21,6 +21,9 @@ from walk_vr_bridge.limits import EDIT_TIMEOUT_S
 
 DRAG_S = 1 / 90
 """Least time between two drags of a keypoint that go on: a frame of the headset."""
+
+LOOK_AGAIN_S = 0.02
+"""How often the desk looks whether the planner hears edits, while some wait for it."""
 
 REMEMBERED = 4096
 """Edits whose client and stamp are remembered, so that their answers find back: a minute of 40 hands that drag."""
@@ -41,14 +44,18 @@ class Asked:
 class EditDesk:
     """Puts the bridge's own stamp and the client's identity into edits; used in the thread of the web server only."""
 
-    def __init__(self, send: Callable[[Any], None], now_ns: Callable[[], int]) -> None:
+    def __init__(self, send: Callable[[Any], None], now_ns: Callable[[], int], is_heard: Callable[[], bool]) -> None:
         """Takes what it needs of the graph.
 
         Args:
             send: Publishes an edit.
             now_ns: The graph's time [ns].
+            is_heard: Whether anybody subscribes to edits. They are not latched: before the sequencer has been
+                discovered, as just after a start, they would be lost.
         """
-        self._send = send
+        self._publish = send
+        self._is_heard = is_heard
+        self._unheard: deque[tuple[float, Any]] = deque(maxlen=REMEMBERED)
         self._now_ns = now_ns
         self._last_ns = 0
         self._asked: OrderedDict[int, Asked] = OrderedDict()
@@ -132,6 +139,26 @@ class EditDesk:
             self._asked.popitem(last=False)
         self._send(msg)
         return ""
+
+    def _send(self, msg: Any) -> None:
+        """Publishes an edit, behind those that wait until the planner hears them."""
+        if not self._unheard and self._is_heard():
+            self._publish(msg)
+            return
+        loop = asyncio.get_running_loop()
+        if not self._unheard:
+            loop.call_later(LOOK_AGAIN_S, self._send_unheard)
+        self._unheard.append((loop.time() + EDIT_TIMEOUT_S, msg))
+
+    def _send_unheard(self) -> None:
+        """Publishes what has waited, in its order; drops what its client has meanwhile been told is lost."""
+        loop = asyncio.get_running_loop()
+        while self._unheard and self._unheard[0][0] <= loop.time():
+            self._unheard.popleft()
+        while self._unheard and self._is_heard():
+            self._publish(self._unheard.popleft()[1])
+        if self._unheard:
+            loop.call_later(LOOK_AGAIN_S, self._send_unheard)
 
 
 def label_of(msg: InteractiveMarkerFeedback) -> int:

@@ -38,6 +38,7 @@ class Graph:
         self._allowed = allowed
         self._callers: dict[str, Any] = {}
         node.offer(*PUBLISHED)
+        self._publishers = {publisher.topic_name: publisher for publisher in node.publishers}
         # Without the global arguments: they would give it this node's name.
         self.quick = rclpy.create_node(
             f"_{node.get_name()}_quick", namespace=node.get_namespace(), use_global_arguments=False,
@@ -60,6 +61,10 @@ class Graph:
     def publish(self, topic: str, msg: Any) -> None:
         """Publishes a message of a client."""
         self._node.publish(self._allowed.short(topic), msg)
+
+    def is_heard(self, topic: str) -> bool:
+        """Returns whether a topic that clients publish on has a subscriber that has been discovered."""
+        return self._publishers[topic].get_subscription_count() > 0
 
     def now_ns(self) -> int:
         """Returns the graph's time [ns]."""

@@ -34,6 +34,9 @@ class GraphLike(Protocol):
     def publish(self, topic: str, msg: Any) -> None:
         """Publishes a message."""
 
+    def is_heard(self, topic: str) -> bool:
+        """Returns whether somebody subscribes to a topic that clients publish on."""
+
     def call(self, service: str, cls: Any, request: Any, done: OnAnswer) -> None:
         """Calls a service; `done` is called in the thread of the web server."""
 
@@ -49,7 +52,11 @@ class Operations:
         self._graph = graph
         self._allowed: Allowed = hub.allowed
         self._edits_topic = self._allowed.full(EDITS)
-        self.desk = EditDesk(lambda msg: graph.publish(self._edits_topic, msg), graph.now_ns)
+        self.desk = EditDesk(
+            lambda msg: graph.publish(self._edits_topic, msg),
+            graph.now_ns,
+            lambda: graph.is_heard(self._edits_topic),
+        )
         self._handlers: dict[str, Callable[[Client, dict[str, Any]], None]] = {
             "subscribe": self._subscribe,
             "unsubscribe": self._unsubscribe,

@@ -20,7 +20,7 @@ export class Overlay {
   readonly map: MapView;
   readonly walker = makeWalker(1.6);
   /** Radius of a keypoint's ball in the map [m]. */
-  size = 0.12;
+  size = 0;
 
   /**
    * @param belowEyeM how far under the eye keypoints are drawn.
@@ -47,6 +47,7 @@ export class Overlay {
   }
 
   setSize(radiusM: number): void {
+    if (radiusM === this.size) return;
     this.size = radiusM;
     this.pins.setSize(radiusM);
     this.numbers.setSize(radiusM);

@@ -74,9 +74,14 @@ export class Place {
     for (let i = 0; i < keypoints.length; i++) {
       const keypoint = keypoints[i];
       if (skip(keypoint)) continue;
-      const [x, y, z] = keypoint.position;
-      const square = (x - at.x) ** 2 + (y - at.y) ** 2 + (z - this.belowEyeM - at.z) ** 2;
-      if (square < least) [found, least] = [keypoint.id, square];
+      const { position } = keypoint;
+      const x = position[0] - at.x;
+      const y = position[1] - at.y;
+      const z = position[2] - this.belowEyeM - at.z;
+      const square = x * x + y * y + z * z;
+      if (square >= least) continue;
+      found = keypoint.id;
+      least = square;
     }
     return found;
   }
@@ -98,8 +103,10 @@ export class Place {
     for (let i = 0; i < keypoints.length; i++) {
       const keypoint = keypoints[i];
       if (skip(keypoint)) continue;
-      const [px, py, pz] = keypoint.position;
-      const [x, y, z] = [px - origin.x, py - origin.y, pz - this.belowEyeM - origin.z];
+      const { position } = keypoint;
+      const x = position[0] - origin.x;
+      const y = position[1] - origin.y;
+      const z = position[2] - this.belowEyeM - origin.z;
       const along = x * direction.x + y * direction.y + z * direction.z;
       if (along <= 0 || along > mostM) continue;
       const aside = Math.sqrt(Math.max(0, x * x + y * y + z * z - along * along));

@@ -15,7 +15,6 @@ import { Note } from "./note";
 import { Overlay } from "./overlay";
 import { paintPath } from "./pathview";
 import type { Showing } from "./pins";
-import { Profile } from "./profile";
 import { PathTube } from "./tube";
 import type { View } from "./view";
 
@@ -60,7 +59,6 @@ export class Stage {
   private drawn = false;
   private refusals = 0;
   private wasCut = false;
-  private readonly profile = new Profile();
 
   constructor(
     readonly view: View,
@@ -167,15 +165,6 @@ export class Stage {
     paintPath(this.tube, path, settings.pathColour);
   }
 
-  /** A few rings a frame, and only where their colours are looked at. */
-  private measurePath(): void {
-    const { path, settings, building } = this.store.state;
-    const { pathColour } = settings;
-    if (!this.models || !building || pathColour === "plain" || pathColour === "speed") return;
-    const found = this.profile.step(path, this.tube, this.models.bvh, building.walker.radiusM);
-    if (found) paintPath(this.tube, path, pathColour);
-  }
-
   private restyle(): void {
     const { path, settings } = this.store.state;
     paintPath(this.tube, path, settings.pathColour);
@@ -213,7 +202,6 @@ export class Stage {
     this.setSizes();
     this.full.lookFrom(view.eye);
     miniature.copy.lookFrom(view.eye);
-    this.measurePath();
     this.drawKeypoints();
     this.maps.update(miniature.clip, this.bounds, this.viewerFloor(), this.mode === "room");
     this.walk();
@@ -272,7 +260,8 @@ export class Stage {
     const { path, playback } = this.store.state;
     const timeS = playbackTimeS(playback, Date.now());
     const shown = (playback.playing || playback.timeS > 0) && samplePath(path, timeS, this.player);
-    for (const overlay of this.overlays) {
+    for (let i = 0; i < this.overlays.length; i++) {
+      const overlay = this.overlays[i];
       overlay.walker.visible = shown;
       if (!shown) continue;
       const q = this.player.quat;

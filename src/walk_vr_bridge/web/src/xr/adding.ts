@@ -7,7 +7,7 @@ import type { Overlay } from "../scene/overlay";
 import { KEYPOINT } from "../scene/palette";
 import type { Stage } from "../scene/stage";
 import type { HandInput } from "./input";
-import { entry } from "./teleport";
+import { makeMeeting, meetBuilding } from "./surface";
 
 const BALL_M = 0.02;
 const FLAT = 0.7;
@@ -55,7 +55,7 @@ export class Adding {
     }
     const { x, y, z } = this.target;
     this.stage.touched = this.overlay;
-    void this.actions.insert([x, y, z]);
+    void this.actions.add([x, y, z]);
   }
 
   cancel(): void {
@@ -64,17 +64,12 @@ export class Adding {
   }
 
   private byRay(hand: HandInput, overlay: Overlay): boolean {
-    const bvh = this.stage.models?.bvh;
-    if (!bvh || !overlay.place.group.visible) return false;
-    const { origin, direction } = overlay.place.rayToMap(hand.ray);
-    const { clip } = this.stage.miniature;
-    const skip = overlay === this.stage.inMiniature && clip.active ? entry(clip.plane, origin, direction) : 0;
-    const hit = bvh.cast(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, skip);
-    if (hit.distance === Infinity || hit.nz < FLAT) return false;
+    if (!meetBuilding(this.stage, overlay, hand, MET) || MET.up < FLAT) return false;
     this.overlay = overlay;
-    this.target.copy(origin).addScaledVector(direction, hit.distance).z += this.stage.eyeHeightM;
+    this.target.copy(MET.at).z += this.stage.eyeHeightM;
     return true;
   }
 }
 
 const AT = new Vector3();
+const MET = makeMeeting();

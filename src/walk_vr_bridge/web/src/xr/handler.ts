@@ -12,6 +12,7 @@ import type { HandInput } from "./input";
 import type { KnobName, Knobs } from "./knobs";
 import { meetPanel, type PanelPort } from "./panelport";
 import { makePick, type Pick, pickKeypoint } from "./pick";
+import { makeMeeting, meetNearest } from "./surface";
 
 export type Doing = "nothing" | "keypoint" | "carry" | "knob" | "panel" | "add" | "aim";
 
@@ -89,6 +90,10 @@ export class Handler {
 
   private begin(): void {
     const { hand, world, pick } = this;
+    if (!hand.atPanel && this.lookedAt()) {
+      hand.pulse(...TICK.grab);
+      return;
+    }
     if (pick.id !== null && pick.overlay) {
       this.held.take(hand, pick.id, pick.overlay, pick.near, pick.distance);
       this.doing = "keypoint";
@@ -104,6 +109,16 @@ export class Handler {
       this.doing = "aim";
     }
     if (this.doing !== "nothing") hand.pulse(...TICK.grab);
+  }
+
+  /** After "Look at …" on the panel the trigger says where to; returns whether it was for that. */
+  private lookedAt(): boolean {
+    const { stage, actions } = this.world;
+    const { tool, keypoint } = stage.store.state.selection;
+    if (tool !== "lookAt" || keypoint === null) return false;
+    if (meetNearest(stage, this.hand, MET)) void actions.lookAt(keypoint, [MET.at.x, MET.at.y, MET.at.z]);
+    actions.useTool("edit");
+    return true;
   }
 
   private proceed(): void {
@@ -182,4 +197,5 @@ export class Handler {
 }
 
 const BOX = new Box3();
+const MET = makeMeeting();
 const POINT = new Vector3();
