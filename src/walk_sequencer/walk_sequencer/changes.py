@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from walk_sequencer.keypoints import Keypoints, nothing, rows
+from walk_sequencer.whole import plain, whole
 
 Entry = Mapping[str, Any]
 """A change: `kind` and its data, all of it plain JSON."""
@@ -20,6 +21,11 @@ Entry = Mapping[str, Any]
 def suggested_entry(positions: ArrayLike, quat_xyzw: ArrayLike) -> Entry:
     """Returns the change to newly suggested keypoints."""
     return {"kind": "suggested", "positions": _plain(positions), "quat_xyzw": _plain(quat_xyzw)}
+
+
+def opened_entry(keypoints: Keypoints) -> Entry:
+    """Returns the change to the keypoints of a saved tour; nothing before it can be taken back."""
+    return {"kind": "opened", **plain(keypoints)}
 
 
 def order_entry(ids: Iterable[int]) -> Entry:
@@ -101,6 +107,10 @@ def _suggested(keypoints: Keypoints, entry: Entry) -> Keypoints:
     )
 
 
+def _opened(_keypoints: Keypoints, entry: Entry) -> Keypoints:
+    return whole(entry)
+
+
 def _order(keypoints: Keypoints, entry: Entry) -> Keypoints:
     order = tuple(int(i) for i in entry["ids"])
     if len(set(order)) != len(order) or not set(order) <= set(keypoints.ids):
@@ -157,7 +167,7 @@ def _plain(values: ArrayLike) -> Any:
 
 _Change = Callable[[Keypoints, Entry], Keypoints]
 
-_PLANNED: dict[str, _Change] = {"suggested": _suggested, "order": _order}
+_PLANNED: dict[str, _Change] = {"suggested": _suggested, "opened": _opened, "order": _order}
 
 EDITS: dict[str, _Change] = {
     "move": _move,

@@ -67,7 +67,7 @@ class History:
         elif kind in EDITS:
             self._past.append(Kept.of(self.present, new))
             self._future.clear()
-        elif kind == "suggested":
+        elif kind in ("suggested", "opened"):
             self._past.clear()
             self._future.clear()
         self.present = new

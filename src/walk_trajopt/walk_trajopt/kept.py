@@ -33,11 +33,15 @@ def default_state_dir() -> Path:
 
 
 class Kept:
-    """One file for a building and a config: what was solved last, and which revision it belongs to."""
+    """One file for a building and a config: what was solved last, and which revision it belongs to.
+
+    Attributes:
+        file: The file.
+    """
 
     def __init__(self, folder: Path, building_hash: str, config: TrajoptConfig) -> None:
         text = repr((_FORMAT, building_hash, dataclasses.asdict(config)))
-        self._file = folder / f"path-{hashlib.sha256(text.encode()).hexdigest()[:32]}.npz"
+        self.file = folder / f"path-{hashlib.sha256(text.encode()).hexdigest()[:32]}.npz"
 
     def save(self, key: str, state: State, spacing_m: float) -> None:
         """Writes a state; the file appears whole or not at all. Where it cannot be written, that is logged."""
@@ -49,17 +53,17 @@ class Kept:
         out = io.BytesIO()
         np.savez(out, key=np.array(key), spacing_m=np.array(spacing_m), mended=np.array(mended), **arrays)
         try:
-            self._file.parent.mkdir(parents=True, exist_ok=True)
-            part = self._file.with_suffix(".part")
+            self.file.parent.mkdir(parents=True, exist_ok=True)
+            part = self.file.with_suffix(".part")
             part.write_bytes(out.getvalue())
-            part.replace(self._file)
+            part.replace(self.file)
         except OSError as error:
-            _log.warning("the path cannot be kept in %s (%s); set state_dir to another folder", self._file, error)
+            _log.warning("the path cannot be kept in %s (%s); set state_dir to another folder", self.file, error)
 
     def load(self, key: str) -> tuple[State, float] | None:
         """Returns the state of a revision and its spacing, if it is the one that was written last."""
         try:
-            with np.load(io.BytesIO(self._file.read_bytes()), allow_pickle=False) as found:
+            with np.load(io.BytesIO(self.file.read_bytes()), allow_pickle=False) as found:
                 if str(found["key"]) != key:
                     return None
                 state = State(

@@ -7,6 +7,8 @@ from __future__ import annotations
 COMMANDS = {
     "up": "Start the node graph on a building (default: the sample); Ctrl-C stops all.",
     "plan": "Turn a building into a collision-free, timed, recorded walkthrough.",
+    "save": "Save the running graph's building, parameters, keypoints and edits as a project.",
+    "open": "Start the node graph on a saved project.",
     "run": "Start one executable of a package: what `ros2 run` does.",
     "record": "Record a walkthrough as a rosbag2 (MCAP) bag.",
     "recover": "Make a whole bag of one whose recording was cut off.",

@@ -17,6 +17,8 @@ from walk_bringup.bootstrap.main import unknown_command
 _MODULES = {
     "up": "up",
     "plan": "plan",
+    "save": "project",
+    "open": "project",
     "run": "run",
     "record": "bags",
     "recover": "bags",
