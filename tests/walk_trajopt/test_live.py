@@ -218,3 +218,17 @@ def test_a_revision_equals_another_by_its_path_alone() -> None:
     one = revision(PLACES, 2)
     assert one.key == dataclasses.replace(one, locked=frozenset([2, 99])).key
     assert one.key != revision(PLACES).key
+
+
+@pytest.mark.parametrize("mode", ["optimised", "b_spline"])
+def test_what_is_taken_back_of_one_hand_leaves_what_another_drags(hall: Building, mode: str) -> None:
+    both, other = live_path(hall, TrajoptConfig(mode=mode)), live_path(hall, TrajoptConfig(mode=mode))
+    both.follow(revision(PLACES))
+    other.follow(revision(PLACES))
+    for k, place in ((1, (3.3, 5.8)), (3, (8.8, 5.7))):
+        assert both.move(k, eyes(place)[0]).accepted
+    assert other.move(3, eyes((8.8, 5.7))[0]).accepted
+    np.testing.assert_array_equal(both.take_back(1).points, other.path().points)
+    np.testing.assert_allclose(both.keypoints[3, :2], (8.8, 5.7))
+    untouched = other.take_back(3).points
+    np.testing.assert_array_equal(both.take_back().points, untouched)

@@ -59,6 +59,7 @@ class LivePath(abc.ABC):
         self._building = building
         self._config = config
         self._revision: Revision | None = None
+        self._shown: dict[int, NDArray[np.float64]] = {}  # edits since the revision, by identity
 
     @property
     @abc.abstractmethod
@@ -74,8 +75,8 @@ class LivePath(abc.ABC):
         """Returns the path of a revision; of what is shown, all stays that the revision confirms."""
 
     @abc.abstractmethod
-    def take_back(self) -> OptimisedPath:
-        """Returns the path of the last revision, without the edits shown since."""
+    def _restored(self) -> OptimisedPath:
+        """Goes back to the last revision, and returns its path."""
 
     @abc.abstractmethod
     def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
@@ -88,7 +89,23 @@ class LivePath(abc.ABC):
             return EditOutcome(path=self.path(), accepted=False, reason="the tour has no such keypoint")
         if identity in self._revision.locked:
             return EditOutcome(path=self.path(), accepted=False, reason=_LOCKED)
-        return self._moved(self._revision.ids.index(identity), position)
+        outcome = self._moved(self._revision.ids.index(identity), position)
+        if outcome.accepted:
+            self._shown[identity] = position
+        return outcome
+
+    def take_back(self, identity: int | None = None) -> OptimisedPath:
+        """Returns the path of the last revision with the edits shown since, but for one keypoint's; None: for all.
+
+        What other hands drag meanwhile stays as it is shown.
+        """
+        assert self._revision is not None
+        others = {i: place for i, place in self._shown.items() if identity not in (None, i)}
+        self._shown = {}
+        path = self._restored()
+        for other, place in others.items():
+            path = self.move(other, place).path
+        return path
 
 
 class OptimisedWalk(LivePath):
@@ -114,6 +131,8 @@ class OptimisedWalk(LivePath):
     def follow(self, revision: Revision) -> OptimisedPath:
         """Returns the path of a revision: the one shown, the one known from before, or one solved where it is new."""
         before, key = self._revision, revision.key
+        if before is None or key != before.key:
+            self._shown = {}
         if before is None or self._optimiser is None:
             self._solve(revision)
         elif key in self._known:
@@ -135,8 +154,7 @@ class OptimisedWalk(LivePath):
             self._kept.save(revision.digest, self._known[key], self._optimiser.spacing_m)
         return self.path()
 
-    def take_back(self) -> OptimisedPath:
-        """Returns the path of the last revision, without the edits shown since."""
+    def _restored(self) -> OptimisedPath:
         assert self._revision is not None and self._optimiser is not None
         self._optimiser.state = self._known[self._revision.key]
         return self.path()
@@ -183,12 +201,11 @@ class ManualWalk(LivePath):
 
     def follow(self, revision: Revision) -> OptimisedPath:
         """Returns the spline through the revision's keypoints."""
-        self._revision, self._keypoints = revision, revision.keypoints
+        self._revision, self._keypoints, self._shown = revision, revision.keypoints, {}
         self._path = spline_path(self._building, self._keypoints, self._config, self._config.mode)
         return self._path
 
-    def take_back(self) -> OptimisedPath:
-        """Returns the spline through the keypoints of the last revision."""
+    def _restored(self) -> OptimisedPath:
         assert self._revision is not None
         return self.follow(self._revision)
 
