@@ -13,6 +13,7 @@ from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
 from walk_ros.conversions.legs_cdr import pairwise_paths_to_bytes
 from walk_ros.conversions.paths import headings
 from walk_ros.raw import from_bytes, to_bytes
+from walk_ros.results import stand_bytes, stand_messages
 from walk_ros.topics import type_name
 
 STAMP = 1_700_000_000_123_456_789
@@ -264,3 +265,14 @@ def test_bytes_written_in_place_are_the_same_messages(trajectory, rows):
     assert from_bytes(trajectory_to_bytes(few, STAMP), kind) == c.trajectory_to_msg(few, STAMP)
     assert len(path_to_bytes(*walk)) == len(to_bytes(c.path_to_msg(*walk)))
     assert len(trajectory_to_bytes(few, STAMP)) == len(to_bytes(c.trajectory_to_msg(few, STAMP)))
+
+
+@pytest.mark.parametrize("rows", [1, 2, 17])
+def test_a_revision_with_its_tour_as_bytes_is_the_same_messages(rows):
+    rng = np.random.default_rng(rows)
+    eyes, quat = rng.normal(size=(2, 3)), np.tile([0.0, 0.0, 0.0, 1.0], (2, 1))
+    tour = SimpleNamespace(order=[1, 0], stands=eyes, unreachable=[], polyline=rng.normal(size=(rows, 3)))
+    arguments = (tour, eyes, quat, (4, 7), ("hall", ""), STAMP, (9,))
+    messages, written = dict(stand_messages(*arguments)), dict(stand_bytes(*arguments))
+    assert from_bytes(written.pop("tour"), "nav_msgs/msg/Path") == messages.pop("tour")
+    assert written == messages

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from walk_ros.conversions.edit_marks import KeypointMarks, keypoint_marks_to_msgs
 from walk_ros.editor import KeypointEditor
 from walk_ros.node import WalkNode
-from walk_ros.results import NO_POINTS, NO_TURNS, TourLike, leg_bytes, stand_messages, tour_messages
+from walk_ros.results import NO_POINTS, NO_TURNS, TourLike, leg_bytes, stand_bytes, tour_messages
 
 
 class KeypointsLike(Protocol):
@@ -94,7 +94,7 @@ class KeypointView:
         gone = sorted(self._shown - set(keypoints.ids))
         self._shown = set(keypoints.ids)
         rows = (keypoints.positions, keypoints.quat_xyzw, keypoints.ids, planned.labels)
-        messages = stand_messages(planned.tour, *rows, stamp, gone)
+        messages = stand_bytes(planned.tour, *rows, stamp, gone)
         eyes = planned.eyes()
         marks = _marks_of(keypoints)
         markers = next(msg for topic, msg in messages if topic == "keypoint_markers")

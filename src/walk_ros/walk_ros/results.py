@@ -15,7 +15,7 @@ from walk_ros.conversions.importance import ImportanceMapLike, importance_map_to
 from walk_ros.conversions.legs import LegLike, pairwise_paths_to_msg
 from walk_ros.conversions.legs_cdr import pairwise_paths_to_bytes
 from walk_ros.conversions.markers import cleared, keypoint_markers_to_msg
-from walk_ros.conversions.paths import path_to_msg, tour_to_msg
+from walk_ros.conversions.paths import headings, path_to_msg, tour_to_msg
 from walk_ros.conversions.poses import keypoints_to_msg, viewpoint_to_msg
 from walk_ros.conversions.stamps import NS
 from walk_ros.conversions.storeys import storey_grid, storey_grid_to_msg
@@ -143,6 +143,34 @@ def stand_messages(
     removed: Iterable[int] = (),
 ) -> TopicMessages:
     """Returns what `tour_messages` does without the legs of all pairs: those are many, and no edit waits for them."""
+    stands = _stand_messages(tour, positions, quat_xyzw, ids, labels, stamp_ns, removed)
+    return [*stands, ("tour", tour_to_msg(tour.polyline, stamp_ns))]
+
+
+def stand_bytes(
+    tour: TourLike,
+    positions: NDArray[np.float64],
+    quat_xyzw: NDArray[np.float64],
+    ids: Sequence[int],
+    labels: Sequence[str],
+    stamp_ns: int,
+    removed: Iterable[int] = (),
+) -> TopicMessages:
+    """Returns what `stand_messages` does, the tour serialised: a release waits for it."""
+    line = np.asarray(tour.polyline, dtype=np.float64).reshape(-1, 3)
+    data = path_to_bytes(np.zeros(len(line)), line, headings(line), stamp_ns)
+    return [*_stand_messages(tour, positions, quat_xyzw, ids, labels, stamp_ns, removed), ("tour", data)]
+
+
+def _stand_messages(
+    tour: TourLike,
+    positions: NDArray[np.float64],
+    quat_xyzw: NDArray[np.float64],
+    ids: Sequence[int],
+    labels: Sequence[str],
+    stamp_ns: int,
+    removed: Iterable[int],
+) -> TopicMessages:
     order = [int(i) for i in tour.order]
     eyes = tour.stands[order]
     markers = keypoint_markers_to_msg(
@@ -154,11 +182,7 @@ def stand_messages(
         left_out=[(ids[u.index], positions[u.index], u.reason) for u in tour.unreachable],
         removed=removed,
     )
-    return [
-        ("keypoints", keypoints_to_msg(eyes, quat_xyzw[order], stamp_ns)),
-        ("keypoint_markers", markers),
-        ("tour", tour_to_msg(tour.polyline, stamp_ns)),
-    ]
+    return [("keypoints", keypoints_to_msg(eyes, quat_xyzw[order], stamp_ns)), ("keypoint_markers", markers)]
 
 
 def leg_messages(tour: TourLike, ids: Sequence[int], stamp_ns: int) -> tuple[str, Any]:
