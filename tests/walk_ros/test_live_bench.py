@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from walk_ros.conversions import path_to_msg
-from walk_ros.live_bench.figures import Sent, Told, match, ratios, summary_ms, verdict
+from walk_ros.live_bench.figures import Sent, Told, match, ratios, replaced_trips, summary_ms, verdict
 from walk_ros.live_bench.paths import distances, flaw, path_stamp_ns
 from walk_ros.raw import to_bytes
 
@@ -88,3 +88,9 @@ def test_a_path_that_leaves_a_keypoint_out_is_noticed_unless_it_is_in_a_hand():
 
 def test_distances_are_to_the_segments_not_to_the_points():
     np.testing.assert_allclose(distances(np.array([[0.5, 0.3, 1.6], [3.0, 0.0, 1.6]]), LINE), [0.3, 1.0])
+
+
+def test_a_message_whose_copy_was_replaced_waits_for_the_next_copy():
+    began = {1: 0.0, 2: 1.0, 3: 2.0, 4: 3.0}
+    assert replaced_trips(began, {1: 0.5, 3: 2.25, 4: 3.125}) == [0.5, 1.25, 0.25, 0.125]
+    assert replaced_trips(began, {2: 1.5}) == [1.5, 0.5]

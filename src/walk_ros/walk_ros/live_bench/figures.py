@@ -74,6 +74,21 @@ def match(sent: Sequence[Sent], told: Sequence[Told], paths: Mapping[int, float]
     return Answers(latency_s=tuple(latency), superseded=superseded, refused=refused, lost=lost, reasons=tuple(reasons))
 
 
+def replaced_trips(began: Mapping[int, float], came: Mapping[int, float]) -> list[float]:
+    """Returns the round trips [s] of messages by stamp; where a later copy has replaced the copy, until that came.
+
+    Of a path only the newest counts, so the middleware may leave out the one before; an edit that is superseded waits
+    in the same way. The last ones have no trip where no copy came at all.
+    """
+    trips: list[float] = []
+    arrival = None
+    for stamp in sorted(began, reverse=True):
+        arrival = came.get(stamp, arrival)
+        if arrival is not None:
+            trips.append(arrival - began[stamp])
+    return trips[::-1]
+
+
 def summary_ms(seconds: Sequence[float]) -> dict[str, float]:
     """Returns count, median, 99th percentile and maximum [ms]; only the count where there is nothing."""
     if not len(seconds):
