@@ -112,7 +112,8 @@ def as_points(name: str, points: ArrayLike) -> NDArray[np.float64]:
 
 def in_chunks(kernel: Callable[..., None], n: int, *args: object) -> None:
     """Runs `kernel(begin, end, *args)` over 0..n, on all cores where there is enough to do."""
-    workers = min(os.cpu_count() or 1, n // _PARALLEL_FROM + 1)
+    # The number of cores is a file to read: a tenth of a millisecond, which a single question must not cost.
+    workers = 1 if n < _PARALLEL_FROM else min(os.cpu_count() or 1, n // _PARALLEL_FROM + 1)
     if workers == 1:
         kernel(0, n, *args)
         return
