@@ -173,9 +173,7 @@ class Hand:
         self.pause(0.1)
         trips = replaced_trips(began, self._copies)
         if len(trips) < len(began):
-            raise BenchError(
-                f"the last {len(began) - len(trips)} of {count} null messages never came back"
-            )
+            raise BenchError(f"the last {len(began) - len(trips)} of {count} null messages never came back")
         self._copies.clear()
         return trips
 
