@@ -23,6 +23,9 @@ DOMAIN = 101
 WARM_UP = 3
 """Releases that are not counted: compiled code and caches come in."""
 
+LIMIT_MS = 70_000
+"""No release is begun after this long; what is counted is told."""
+
 # The clock starts when the trigger lets go and stops when the frame with the new path has been handed to the graphics
 # system. In between the emulator, like a real headset, tells the page of the trigger at the next frame.
 RELEASES = """
@@ -30,7 +33,18 @@ RELEASES = """
   const id = store.state.keypoints[1].id;
   let fresh = 0;
   let drawn = null;
-  store.subscribe("path", () => { if (fresh === 1) fresh = 2; });
+  let [sent, came] = [NaN, NaN];
+  store.subscribe("path", () => {
+    if (fresh !== 1 || Number.isNaN(sent)) return;
+    fresh = 2;
+    came = performance.now();
+  });
+  const { actions } = walk.client;
+  const release = actions.release.bind(actions);
+  actions.release = (...what) => {
+    sent = performance.now();
+    return release(...what);
+  };
   const { renderer, scene } = walk.view;
   const render = renderer.render.bind(renderer);
   renderer.render = (...what) => {
@@ -51,8 +65,10 @@ RELEASES = """
     await settle(12);
   };
   const times = [];
+  const parts = [];
+  const began = performance.now();
   let missed = 0;
-  for (let round = 0; round < COUNT; round++) {
+  for (let round = 0; round < COUNT && performance.now() - began < LIMIT_MS; round++) {
     await quiet();
     const from = hands.shown(id);
     await hands.reach("right", from);
@@ -64,19 +80,24 @@ RELEASES = """
     await new Promise((done) => setTimeout(done, Math.random() * 17));
     const done = new Promise((resolve) => { drawn = resolve; });
     fresh = 1;
+    sent = came = NaN;
     const start = performance.now();
     hands.device.controllers.right.updateButtonValue("trigger", 0);
     const late = new Promise((resolve) => setTimeout(() => resolve(NaN), 2000));
     const end = await Promise.race([done, late]);
     if (Number.isNaN(end)) missed += 1;
-    else times.push(end - start);
+    else {
+      times.push(end - start);
+      parts.push([sent - start, came - sent, end - came]);
+    }
     fresh = 0;
     await hands.frames(3);
   }
   const frameStart = performance.now();
   await hands.frames(60);
   const frameMs = (performance.now() - frameStart) / 60;
-  return { times, missed, restless, frameMs, refused: store.state.refusals.length };
+  actions.release = release;
+  return { times, parts, missed, restless, frameMs, refused: store.state.refusals.length };
 """
 
 
@@ -89,19 +110,25 @@ def measure(count):
             graph.start_all()
             page = browser.open(graph.url)
             page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
-            result = page.js(RELEASES.replace("COUNT", str(WARM_UP + count)))
+            result = page.js(RELEASES.replace("COUNT", str(WARM_UP + count)).replace("LIMIT_MS", str(LIMIT_MS)))
         finally:
             graph.close()
             browser.close()
+    waits, planner, drawing = np.median(result["parts"][WARM_UP:], axis=0)
     p50, p95 = np.percentile(result["times"][WARM_UP:], [50, 95])
     return {
-        "releases": count,
+        "releases": len(result["times"]) - WARM_UP,
         "refused": result["refused"],
         "missed": result["missed"],
         "restless": result["restless"],
         "frame_ms": round(result["frameMs"], 1),
         "release_to_path_p50_ms": round(float(p50), 1),
         "release_to_path_p95_ms": round(float(p95), 1),
+        "p50_of_parts_ms": {
+            "until_the_page_hears_of_the_trigger": round(float(waits), 1),
+            "bridge_graph_and_back": round(float(planner), 1),
+            "until_it_is_drawn": round(float(drawing), 1),
+        },
         "p50_to_goal": round(float(p50) / GOAL_P50_MS, 2),
         "p95_to_goal": round(float(p95) / GOAL_P95_MS, 2),
     }
