@@ -8,9 +8,14 @@
 import sys
 
 from walk_bringup.sample import sample_path
-from walk_building import load_building
+from walk_building import LoadOptions, WalkError, load_building
 
-building = load_building(sys.argv[1] if len(sys.argv) > 1 else sample_path())
+file = sys.argv[1] if len(sys.argv) > 1 else sample_path()
+units_m = float(sys.argv[2]) if len(sys.argv) > 2 else 0.0  # 0: what the file says
+try:
+    building = load_building(file, LoadOptions(units_m=units_m))
+except WalkError as error:
+    sys.exit(str(error))
 
 low, high = building.model.vertices.min(axis=0), building.model.vertices.max(axis=0)
 print(f"{building.model.source.name}: {len(building.model.faces)} triangles, {high - low} m")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -16,7 +17,7 @@ from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli import executables as lookup
 from walk_bringup.cli.main import group, main
-from walk_bringup.cli.up import overrides_yaml, ros_arguments
+from walk_bringup.cli.up import overrides_yaml, refuse_taken_port, ros_arguments
 from walk_plan.options import plan_options
 
 SOURCES = [str(path) for path in sorted((Path(__file__).resolve().parents[2] / "src").iterdir())]
@@ -215,3 +216,14 @@ def _alive(pid: int) -> bool:
         return Path(f"/proc/{pid}/stat").read_text().split()[2] != "Z"
     except FileNotFoundError:
         return False
+
+
+def test_a_second_graph_is_not_started_over_the_first() -> None:
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        with pytest.raises(SetupError, match=rf"port {port} is taken.*ROS_DOMAIN_ID=7 ./walk up --port"):
+            refuse_taken_port((f"vr_bridge.bridge.port={port}",))
+    refuse_taken_port((f"vr_bridge.bridge.port={port}",))
+    refuse_taken_port(("vr_bridge.bridge.port=0",))

@@ -21,6 +21,9 @@ from walk_bag.topics import BagMessage, BagTopic, qos_from_yaml, qos_to_yaml
 CHUNK_BYTES = 4 << 20
 """Paths that follow each other while a keypoint is dragged differ little; chunks this long let zstd see that."""
 
+ALONE_BYTES = 512 << 10
+"""A message from this size on begins a chunk: what came before it is whole even if the file is cut within it."""
+
 MAGIC = b"\x89MCAP0\r\n"
 _ENCODING = "cdr"
 _BROKEN_OFF = (McapError, EOFError, ValueError, struct.error)
@@ -74,6 +77,8 @@ class McapFile:
     def write(self, name: str, stamp_ns: int, data: bytes) -> None:
         """Appends a message of a topic that was taken in."""
         counted = self.topics[name]
+        if len(data) >= ALONE_BYTES:
+            self.flush()
         self._writer.add_message(counted.channel, stamp_ns, data, stamp_ns, sequence=counted.messages)
         self.first_ns = min(self.first_ns, stamp_ns) if self.message_count else stamp_ns
         self.last_ns = max(self.last_ns, stamp_ns)

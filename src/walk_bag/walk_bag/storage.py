@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import itertools
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
@@ -208,8 +209,12 @@ def recover_bag(path: Path | str, out: Path | str) -> int:
     Raises:
         BagError: There is nothing to read, or `out` cannot be written.
     """
+    messages = read_bag(path)
+    first = next(messages, None)
+    if first is None:
+        raise BagError(path, "is cut within its first messages: there is nothing to recover")
     with BagWriter(out) as writer:
-        for message in read_bag(path):
+        for message in itertools.chain([first], messages):
             writer.write(message.topic, message.stamp_ns, message.data)
         return writer.message_count
 

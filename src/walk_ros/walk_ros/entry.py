@@ -10,14 +10,16 @@ from __future__ import annotations
 import importlib
 import os
 import signal
+import sys
 from collections.abc import Callable
 from types import FrameType
+from typing import NoReturn
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
-def enter(module: str) -> int:
-    """Imports a module and runs its `main`; returns the exit code, which is 0 after SIGINT or SIGTERM.
+def enter(module: str) -> NoReturn:
+    """Imports a module, runs its `main` and ends the process with its code, which is 0 after SIGINT or SIGTERM.
 
     A launcher may start the process with both signals blocked, so that none is lost before this runs; they are let
     through here.
@@ -27,9 +29,13 @@ def enter(module: str) -> int:
     main: Callable[[], int] = importlib.import_module(module).main
     _on_signals(_interrupt)
     try:
-        return main()
+        code = main()
     except KeyboardInterrupt:
-        return 0
+        code = 0
+    # All is closed; the interpreter's own end would only list what some compiled library has not given back.
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(code)
 
 
 def _on_signals(handler: Callable[[int, FrameType | None], None]) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import socket
 import tempfile
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
 from walk_bringup.cli.processes import Child, Supervisor
+from walk_vr_bridge.config import BridgeConfig
 
 NODES = {
     "importance": "walk_importance",
@@ -62,6 +64,8 @@ def up(
       ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
     """
     params = (*bridge_params(lan, port), *params)
+    if params_file is None:
+        refuse_taken_port(params)
     shared = ros_arguments(building, params_file, namespace, log_level)
     with tempfile.TemporaryDirectory(prefix="walk_") as folder:
         own = Path(folder) / "params.yaml"
@@ -94,6 +98,23 @@ def bridge_params(lan: bool, port: int | None) -> tuple[str, ...]:
     """Returns what the options about the page mean as parameters."""
     ports = () if port is None else (f"vr_bridge.bridge.port={port}",)
     return (*(("vr_bridge.bridge.lan=true",) if lan else ()), *ports)
+
+
+def refuse_taken_port(params: tuple[str, ...]) -> None:
+    """Raises SetupError where the page's port is taken: two graphs that share a domain would disturb each other."""
+    given = [value for name, _, value in (param.partition("=") for param in params) if name == "vr_bridge.bridge.port"]
+    port = given[-1] if given else str(BridgeConfig().port)
+    if not port.isdigit() or not 0 < int(port) < 2**16:
+        return  # any free one; what is no port at all, the bridge itself refuses
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(("127.0.0.1", int(port)))
+        except OSError as error:
+            raise SetupError(
+                f"port {port} is taken, most likely by another ./walk up: end that one, or start this one beside it "
+                f"with a port and a ROS domain of its own: ROS_DOMAIN_ID=7 ./walk up --port {int(port) % 65535 + 1}"
+            ) from error
 
 
 def ros_arguments(building: Path | None, params_file: Path | None, namespace: str, log_level: str) -> list[str]:
