@@ -29,8 +29,8 @@ from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.kept import default_state_dir
 from walk_trajopt.live import LivePath, live_path
+from walk_trajopt.node_inbox import Inbox, Plan
 from walk_trajopt.path import OptimisedPath
-from walk_trajopt.plan import Inbox, Plan
 
 
 class TrajoptNode(WalkNode):

@@ -14,7 +14,7 @@ from walk_bringup.bootstrap.layout import Layout
 ENGINES = ("ompl", "scipy.optimize", "fcl", "trimesh", "ifcopenshell", "collada", "rosbags", "mcap", "aiohttp")
 """Libraries that stand behind names of the project: each is imported in one file."""
 
-ENGINE_EXCEPTIONS = (r"\w+/bench(\.py|/.*)", r"walk_bringup/sample/.*")
+ENGINE_EXCEPTIONS = (r"\w+/bench(_\w+)?(\.py|/.*)", r"walk_bringup/sample/.*")
 """Patterns of paths: measurements use a library plainly to compare; the sample script writes what the loader reads."""
 
 ROS_FOLDERS = ("walk_ros/", "walk_bag/", "walk_vr_bridge/")
@@ -60,8 +60,8 @@ def _is_ros(module: str) -> bool:
 
 def _ros_at_the_rim(imports: dict[str, list[tuple[int, str]]]) -> Iterator[str]:
     for path, found in imports.items():
-        # Beside a node lies the door to it, which imports nothing but the handling of signals.
-        if path.endswith(("/node.py", "/__main__.py")) or path.startswith(ROS_FOLDERS):
+        # Beside a node lie the door to it, which imports nothing but the handling of signals, and parts of it.
+        if re.search(r"/(node(_\w+)?|__main__)\.py$", path) or path.startswith(ROS_FOLDERS):
             continue
         for line, module in found:
             if _is_ros(module) or _is_of(module, "walk_ros"):
