@@ -104,7 +104,7 @@ def test_lock_pins_every_requirement_and_names_no_index() -> None:
     pins = installation.requirements(Layout(ROOT), FIT)
     names = [pin.partition("==")[0] for pin in pins]
     assert all("==" in pin for pin in pins)
-    assert not any("http" in line or line.startswith("-") for line in pins)
+    assert not any("://" in line or line.startswith("-") for line in pins)
     assert len(names) == len(set(names))
     asked = [
         line.split("#")[0].split("[")[0].split("<")[0].strip().lower() for line in _lines(ROOT / "requirements.in")

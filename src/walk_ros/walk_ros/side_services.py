@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -53,5 +52,10 @@ class SideServices:
         self._node.destroy_node()
 
     def _spin(self) -> None:
-        with contextlib.suppress(ExternalShutdownException, ShutdownException):
+        try:
             self._executor.spin()
+        except (ExternalShutdownException, ShutdownException):
+            pass
+        except RuntimeError:  # of the layers below, where the end comes between two looks at the context
+            if self._node.context.ok():
+                raise

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
 import os
 import signal
 import sys
@@ -148,8 +147,13 @@ def _make_node(loop: asyncio.AbstractEventLoop, on_config: object) -> BridgeNode
 
 
 def _spin(executor: SingleThreadedExecutor) -> None:
-    with contextlib.suppress(ExternalShutdownException):
+    try:
         executor.spin()
+    except ExternalShutdownException:
+        pass
+    except RuntimeError:  # of the layers below, where the end comes between two looks at the context
+        if rclpy.ok():
+            raise
 
 
 def _show(text: str) -> None:
