@@ -5,42 +5,15 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-CHANNELS = ("obstacle", "distance", "visibility", "importance")
+from walk_ros.conversions.importance import MAPS, ReceivedImportanceMap
+
 MAX_VOXELS = 8_000_000
 """More than this are thinned out: 32 MB are what a headset's memory bears beside the building."""
-
-
-class GridLike(Protocol):
-    """What a voxel grid has."""
-
-    @property
-    def origin(self) -> NDArray[np.float64]:
-        """(3,) lowest corner of the lowest voxel [m]."""
-
-    @property
-    def voxel_size_m(self) -> float:
-        """Edge of a voxel [m]."""
-
-    @property
-    def shape(self) -> tuple[int, int, int]:
-        """Voxels along x, y, z."""
-
-
-class MapLike(Protocol):
-    """What an importance map that came in as a message has; arrays (nx, ny, nz)."""
-
-    @property
-    def stamp_ns(self) -> int:
-        """The revision."""
-
-    @property
-    def grid(self) -> GridLike:
-        """The voxels."""
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,17 +24,17 @@ class Volume:
     data: bytes
 
 
-def volume(importance_map: MapLike, building_hash: str, max_voxels: int = MAX_VOXELS) -> Volume:
+def volume(importance_map: ReceivedImportanceMap, building_hash: str, max_voxels: int = MAX_VOXELS) -> Volume:
     """Returns the map as bytes; a byte b stands for low + (high - low) b / 255."""
     grid = importance_map.grid
     step = 1
     while np.prod([-(-n // step) for n in grid.shape]) > max_voxels:
         step += 1
-    arrays = [np.asarray(getattr(importance_map, name))[::step, ::step, ::step] for name in CHANNELS]
+    arrays = [np.asarray(getattr(importance_map, name))[::step, ::step, ::step] for name in MAPS]
     shape = arrays[0].shape
-    table = np.empty((*shape[::-1], len(CHANNELS)), np.uint8)
+    table = np.empty((*shape[::-1], len(MAPS)), np.uint8)
     channels = []
-    for at, (name, values) in enumerate(zip(CHANNELS, arrays, strict=True)):
+    for at, (name, values) in enumerate(zip(MAPS, arrays, strict=True)):
         low, high = (0.0, 1.0) if name == "obstacle" else _range(values)
         scaled = (values - np.float32(low)) * np.float32(255 / ((high - low) or 1.0))
         table[..., at] = np.rint(np.clip(scaled, 0, 255)).astype(np.uint8).transpose(2, 1, 0)
