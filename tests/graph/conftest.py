@@ -2,14 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Graphs of real nodes on real DDS, on a small made building."""
 
-import os
-
 import pytest
+from graph.domains import own_domain
 from graph.processes import Graph, Observer
 from graph.rooms import make_rooms
-
-_DOMAINS = iter(range(102 + 6 * (os.getpid() % 20), 233))
-"""Every graph has a domain of its own, other test runs on this machine most likely others."""
 
 
 @pytest.fixture(scope="session")
@@ -19,9 +15,10 @@ def rooms(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def graph(rooms, tmp_path_factory):
-    graph = Graph(next(_DOMAINS), tmp_path_factory.mktemp("graph"), rooms)
-    yield graph
-    graph.close()
+    with own_domain() as domain:
+        graph = Graph(domain, tmp_path_factory.mktemp("graph"), rooms)
+        yield graph
+        graph.close()
 
 
 @pytest.fixture(scope="module")
@@ -33,4 +30,5 @@ def observer(graph):
 
 @pytest.fixture
 def other_domain():
-    return next(_DOMAINS)
+    with own_domain() as domain:
+        yield domain

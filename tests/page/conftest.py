@@ -2,14 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page in a real browser with an emulated headset, before the real bridge, DDS and planner nodes."""
 
-import os
 import shutil
 
 import pytest
+from graph.domains import own_domain
 from graph.rooms import make_rooms
 from page.browser import STATIC, WEB, BridgedGraph, Browser
-
-_DOMAINS = iter(range(104 + 6 * (os.getpid() % 20), 233))
 
 
 @pytest.fixture(scope="session")
@@ -35,18 +33,20 @@ def rooms(tmp_path_factory):
 
 
 @pytest.fixture
-def next_domain():
-    return lambda: next(_DOMAINS)
+def other_domain():
+    with own_domain() as domain:
+        yield domain
 
 
 @pytest.fixture(scope="module")
 def graph(browser, rooms, tmp_path_factory):
-    graph = BridgedGraph(next(_DOMAINS), tmp_path_factory.mktemp("graph"), rooms)
-    try:
-        graph.start_all()
-        yield graph
-    finally:
-        graph.close()
+    with own_domain() as domain:
+        graph = BridgedGraph(domain, tmp_path_factory.mktemp("graph"), rooms)
+        try:
+            graph.start_all()
+            yield graph
+        finally:
+            graph.close()
 
 
 @pytest.fixture(scope="module")

@@ -15,8 +15,8 @@ KEYPOINTS = 100
 
 
 @pytest.mark.parametrize("name", BUILDINGS)
-def test_calls_and_triangles_of_both_eyes(browser, buildings_dir, tmp_path, next_domain, name):
-    graph = BridgedGraph(next_domain(), tmp_path, buildings_dir / name)
+def test_calls_and_triangles_of_both_eyes(browser, buildings_dir, tmp_path, other_domain, name):
+    graph = BridgedGraph(other_domain, tmp_path, buildings_dir / name)
     try:
         graph.start_bridge()
         page = browser.open(graph.url)

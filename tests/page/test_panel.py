@@ -158,25 +158,17 @@ def test_play_pause_seek_speed_and_stop(desk):
 
 
 def test_the_headsets_picture_is_drawn_only_when_something_changes(desk):
-    before, still, changed = desk.page.js("""
-      const { panel } = walk.room;
-      panel.group.visible = true;
-      const frames = async (count) => {
-        for (let i = 0; i < count; i++) {
-          await new Promise(requestAnimationFrame);
-          panel.update(0.01);
-        }
-      };
-      await frames(5);
-      const before = panel.drawn;
-      await frames(30);
-      const still = panel.drawn;
-      walk.client.actions.select(desk.state.keypoints[0].id);
-      await frames(5);
-      const changed = panel.drawn;
-      walk.client.actions.select(null);
-      panel.group.visible = false;
-      return [before, still, changed];
-    """)
-    assert still == before
-    assert changed > still
+    desk.page.js("walk.room.panel.group.visible = true")
+    frames = """
+      const drawn = walk.room.panel.drawn;
+      for (let i = 0; i < 30; i++) {
+        await new Promise(requestAnimationFrame);
+        walk.room.panel.update(0.01);
+      }
+      return walk.room.panel.drawn - drawn;
+    """
+    # What the planner answers to the tests before may still be on its way.
+    desk.page.until(f"await (async () => {{ {frames} }})() === 0", "thirty frames in which nothing is drawn")
+    drawn = desk.page.js(f"walk.client.actions.select(desk.state.keypoints[0].id); {frames}")
+    desk.page.js("walk.client.actions.select(null); walk.room.panel.group.visible = false")
+    assert 1 <= drawn < 30

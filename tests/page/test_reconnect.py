@@ -8,8 +8,8 @@ from page.browser import BridgedGraph
 pytestmark = pytest.mark.ros
 
 
-def test_what_is_released_without_a_connection_is_sent_when_it_is_back(browser, rooms, tmp_path, next_domain):
-    graph = BridgedGraph(next_domain(), tmp_path, rooms)
+def test_what_is_released_without_a_connection_is_sent_when_it_is_back(browser, rooms, tmp_path, other_domain):
+    graph = BridgedGraph(other_domain, tmp_path, rooms)
     try:
         graph.start_all()
         page = browser.open(graph.url)

@@ -6,6 +6,7 @@ import dataclasses
 
 import pytest
 import rclpy
+from graph.domains import own_domain
 from rcl_interfaces.msg import ParameterType
 from rclpy.exceptions import InvalidParameterValueException
 from rclpy.parameter import Parameter
@@ -28,10 +29,11 @@ class Settings(Config):
 @pytest.fixture
 def context(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    monkeypatch.setenv("ROS_DOMAIN_ID", "101")
     context = rclpy.Context()
-    yield context
-    context.try_shutdown()
+    with own_domain() as domain:
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+        yield context
+        context.try_shutdown()
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A service that waits does not keep its node from hearing."""
 
-import os
 import threading
 
 import pytest
 import rclpy
+from graph.domains import own_domain
 from rclpy.executors import SingleThreadedExecutor
 from std_srvs.srv import Trigger
 
@@ -19,9 +19,10 @@ LIMIT_S = 10.0
 def context(monkeypatch):
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=102 + os.getpid() % 100)
-    yield context
-    context.try_shutdown()
+    with own_domain() as domain:
+        rclpy.init(context=context, domain_id=domain)
+        yield context
+        context.try_shutdown()
 
 
 def test_the_node_works_while_a_service_waits_for_it(context):
