@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import dijkstra
 
 from walk_building import BodySweep, Building
+from walk_building.floor_grid import lay_floor, walk_between
 from walk_sequencer.config import SequencerConfig
-from walk_sequencer.ground import lay_ground, walk_between
 from walk_sequencer.pipeline import plan_tour
 from walk_sequencer.roadmap import build_roadmap
 from walk_sequencer.tour import Tour
@@ -164,7 +164,7 @@ def test_roadmap_is_connected_where_prm_left_parts_apart() -> None:
 
 def test_straight_walks_agree_with_the_surface() -> None:
     building = scenes.building_of(scenes.two_rooms())
-    ground, kept = lay_ground(building.surface, building.reachable, EYE, 0.3, 0.5)
+    ground, kept = lay_floor(building.surface, building.reachable, EYE, 0.3, 0.5)
     random = np.random.default_rng(2)
     pairs = random.integers(0, len(kept), (400, 2))
     mine = [walk_between(ground, a, b) < np.inf for a, b in pairs]

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.progress import Progress, no_progress
+from walk_building.tighten import follow_floor, tighten
 from walk_sequencer.roadmap import Roadmap
-from walk_sequencer.tighten import follow_floor, tighten
 from walk_sequencer.tour import Leg, Stand, polyline_length_m
 from walk_sequencer.ways import centre, straight_cost, way, ways_from
 

@@ -8,14 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 from ompl import base, geometric, util
 
-from walk_sequencer.ground import Ground, walk_between
+from walk_building.floor_grid import FloorGrid, walk_between
 
 util.setLogLevel(util.LogLevel.LOG_WARN)
 # Before any other object of OMPL. Nothing below depends on its random numbers: the places come from outside.
 util.RNG.setSeed(1)
 
 
-def grow_roadmap(ground: Ground, places: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def grow_roadmap(ground: FloorGrid, places: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Returns the edges (E, 2), i < j, of the PRM* roadmap with the given places as milestones, and their costs (E,).
 
     Each milestone is joined to its nearest ones (`karaman2011`) where a straight walk leads there. Edges and
@@ -86,7 +86,7 @@ class _Walks(base.MotionValidator):
     """A motion is valid if a straight walk over the ground leads from place to place."""
 
     def __init__(
-        self, info: base.SpaceInformation, ground: Ground, places: NDArray[np.int64], index: dict[float, int]
+        self, info: base.SpaceInformation, ground: FloorGrid, places: NDArray[np.int64], index: dict[float, int]
     ) -> None:
         super().__init__(info)
         self._ground, self._places, self._index = ground, places.tolist(), index

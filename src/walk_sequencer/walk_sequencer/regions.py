@@ -10,7 +10,8 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_sequencer.ground import Ground
+from walk_building.floor_grid import FloorGrid, step_cost
+from walk_building.heap import pop, push
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,13 +23,13 @@ class Regions:
     toward: NDArray[np.int32]  # (N,) the next place on that way; a milestone's own place points at itself
 
 
-def split_ground(ground: Ground, milestones: NDArray[np.int64]) -> Regions:
+def split_ground(ground: FloorGrid, milestones: NDArray[np.int64]) -> Regions:
     """Returns the regions of the milestones (places, all different), by Dijkstra from all of them at once."""
     owner, cost, toward = _spread(ground, milestones)
     return Regions(owner=owner, cost=cost, toward=toward)
 
 
-def neighbouring_regions(ground: Ground, regions: Regions) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def neighbouring_regions(ground: FloorGrid, regions: Regions) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Returns the cheapest crossing between every two regions that touch.
 
     If the ground is connected, the milestones with these crossings as edges are connected too.
@@ -54,39 +55,6 @@ def way_home(regions: Regions, place: int) -> list[int]:
 
 
 @numba.njit(cache=True, nogil=True)
-def _step_cost(ground, p, q):
-    x = ground.xyz[q, 0] - ground.xyz[p, 0]
-    y = ground.xyz[q, 1] - ground.xyz[p, 1]
-    z = ground.xyz[q, 2] - ground.xyz[p, 2]
-    return np.sqrt(x * x + y * y + z * z) * 0.5 * (ground.price[p] + ground.price[q])
-
-
-@numba.njit(cache=True, nogil=True)
-def _push(keys, items, size, key, item):
-    k = size
-    while k > 0 and keys[(k - 1) >> 1] > key:
-        keys[k], items[k] = keys[(k - 1) >> 1], items[(k - 1) >> 1]
-        k = (k - 1) >> 1
-    keys[k], items[k] = key, item
-
-
-@numba.njit(cache=True, nogil=True)
-def _pop(keys, items, size):
-    """Takes the first of `size` entries off the heap; the caller has read it."""
-    key, item = keys[size - 1], items[size - 1]
-    k, last = 0, size - 1
-    while 2 * k + 1 < last:
-        child = 2 * k + 1
-        if child + 1 < last and keys[child + 1] < keys[child]:
-            child += 1
-        if keys[child] >= key:
-            break
-        keys[k], items[k] = keys[child], items[child]
-        k = child
-    keys[k], items[k] = key, item
-
-
-@numba.njit(cache=True, nogil=True)
 def _spread(ground, sources):
     n = len(ground.xyz)
     owner = np.full(n, -1, dtype=np.int32)
@@ -96,11 +64,11 @@ def _spread(ground, sources):
     for m in range(len(sources)):
         p = sources[m]
         owner[p], toward[p], cost[p] = m, p, 0.0
-        _push(keys, items, size, 0.0, p)
+        push(keys, items, size, 0.0, p)
         size += 1
     while size > 0:
         key, p = keys[0], items[0]
-        _pop(keys, items, size)
+        pop(keys, items, size)
         size -= 1
         if key > cost[p]:
             continue
@@ -108,10 +76,10 @@ def _spread(ground, sources):
             q = ground.step[p, k]
             if q < 0:
                 continue
-            new = key + _step_cost(ground, p, q)
+            new = key + step_cost(ground, p, q)
             if new < cost[q]:
                 owner[q], toward[q], cost[q] = owner[p], p, new
-                _push(keys, items, size, new, q)
+                push(keys, items, size, new, q)
                 size += 1
     return owner, cost, toward
 
@@ -130,6 +98,6 @@ def _borders(ground, owner, cost):
             q = ground.step[p, k]
             if q >= 0 and owner[p] >= 0 and owner[p] < owner[q]:
                 crossing[at, 0], crossing[at, 1], crossing[at, 2], crossing[at, 3] = owner[p], owner[q], p, q
-                total[at] = cost[p] + _step_cost(ground, p, q) + cost[q]
+                total[at] = cost[p] + step_cost(ground, p, q) + cost[q]
                 at += 1
     return crossing, total

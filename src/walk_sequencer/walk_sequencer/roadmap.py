@@ -14,11 +14,11 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from walk_building.floor_grid import FloorGrid, lay_floor
 from walk_building.progress import Progress, no_progress
 from walk_building.surface import WalkableSurface
 from walk_building.walker import Walker
 from walk_sequencer.config import SequencerConfig
-from walk_sequencer.ground import Ground, lay_ground
 from walk_sequencer.prm import grow_roadmap
 from walk_sequencer.regions import Regions, neighbouring_regions, split_ground, way_home
 
@@ -41,7 +41,7 @@ class Roadmap:
     config: SequencerConfig
     mask: NDArray[np.bool_]  # (P,) the places of the part
     kept: NDArray[np.int64]  # (N,) place of the surface behind each place of the ground
-    ground: Ground
+    ground: FloorGrid
     milestones: NDArray[np.int64]  # (M,) places of the ground
     tree: cKDTree  # of the milestones
     floor_tree: cKDTree  # of the places of the ground
@@ -78,7 +78,7 @@ def build_roadmap(
     The same input and seed give the same roadmap bit for bit.
     """
     progress("roadmap", 0.0)
-    ground, kept = lay_ground(surface, mask, walker.eye_height_m, config.comfort_m, config.comfort_weight)
+    ground, kept = lay_floor(surface, mask, walker.eye_height_m, config.comfort_m, config.comfort_weight)
     milestones = _draw_milestones(ground, config)
     edges, costs = grow_roadmap(ground, milestones)
     progress("roadmap", 0.6)
@@ -119,7 +119,7 @@ def milestone_count(area_m2: float) -> int:
     return int(min(800 + area_m2, 4000))
 
 
-def _draw_milestones(ground: Ground, config: SequencerConfig) -> NDArray[np.int64]:
+def _draw_milestones(ground: FloorGrid, config: SequencerConfig) -> NDArray[np.int64]:
     """Draws different places, likelier where the walls are near (`efraimidis2006`)."""
     n = len(ground.xyz)
     count = min(n, config.milestones or milestone_count(n * ground.cell_m**2))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from walk_sequencer.ground import walk_line
+from walk_building.floor_grid import walk_line
 from walk_sequencer.regions import way_home
 from walk_sequencer.roadmap import Roadmap
 from walk_sequencer.tour import Stand

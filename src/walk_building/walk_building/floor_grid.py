@@ -18,11 +18,11 @@ _PIECE_M = 0.4
 # What counts as on a line of the grid, in cells and in shares of a line.
 _ON_LINE = 1e-9
 _THREADS = 2
-# Directions in `Ground.step`: x is east, y is north.
+# Directions in `FloorGrid.step`: x is east, y is north.
 _EAST, _NORTH, _NORTH_EAST = 7, 5, 8
 
 
-class Ground(NamedTuple):
+class FloorGrid(NamedTuple):
     """The places of one walkable part, with direct steps to the eight neighbours.
 
     `step[p, 3 * (di + 1) + (dj + 1)]` is the place one column further in direction (di, dj), or -1.
@@ -37,10 +37,10 @@ class Ground(NamedTuple):
     square: NDArray[np.float64]  # (N,) the same, mean over the square with its south-west corner here; inf: blocked
 
 
-def lay_ground(
+def lay_floor(
     surface: WalkableSurface, mask: NDArray[np.bool_], eye_height_m: float, comfort_m: float, comfort_weight: float
-) -> tuple[Ground, NDArray[np.int64]]:
-    """Returns the masked places as a `Ground`, and their indices into the surface.
+) -> tuple[FloorGrid, NDArray[np.int64]]:
+    """Returns the masked places as a `FloorGrid`, and their indices into the surface.
 
     A metre at clearance `c` costs `1 + comfort_weight * max(0, 1 - c / comfort_m)` (our own).
     """
@@ -59,7 +59,7 @@ def lay_ground(
     if comfort_m > 0:
         narrow = np.maximum(0.0, 1.0 - surface.clearance_m[kept] / comfort_m)
     price = 1.0 + comfort_weight * narrow
-    return Ground(
+    return FloorGrid(
         float(surface.cell_m), origin, xyz, np.ascontiguousarray(column[kept]), step, price, _squares(step, price)
     ), kept
 
@@ -197,3 +197,12 @@ def walk_between(ground, a, b):
     """Returns the cost of the straight walk between the centres of two places; inf where it leaves the ground."""
     ax, ay, bx, by = ground.xyz[a, 0], ground.xyz[a, 1], ground.xyz[b, 0], ground.xyz[b, 1]
     return walk_line(ground, a, ax, ay, b, bx, by, None)[0]
+
+
+@numba.njit(cache=True, nogil=True)
+def step_cost(ground, p, q):
+    """Returns the cost of the step from place p to its neighbour q."""
+    x = ground.xyz[q, 0] - ground.xyz[p, 0]
+    y = ground.xyz[q, 1] - ground.xyz[p, 1]
+    z = ground.xyz[q, 2] - ground.xyz[p, 2]
+    return np.sqrt(x * x + y * y + z * z) * 0.5 * (ground.price[p] + ground.price[q])

@@ -8,7 +8,7 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_sequencer.ground import Ground, walk_line
+from walk_building.floor_grid import FloorGrid, walk_line
 
 _EQUAL = 1e-9
 _STRAIGHT = 1.01
@@ -148,7 +148,7 @@ def _follow_floor(ground, way, profile, points, tolerance):
     return count
 
 
-def tighten(ground: Ground, way: NDArray[np.float64]) -> NDArray[np.float64]:
+def tighten(ground: FloorGrid, way: NDArray[np.float64]) -> NDArray[np.float64]:
     """Returns a way of no higher cost with the same ends.
 
     Args:
@@ -162,7 +162,7 @@ def tighten(ground: Ground, way: NDArray[np.float64]) -> NDArray[np.float64]:
     return pulled[: _tighten(ground, pulled, _PASSES)]
 
 
-def follow_floor(ground: Ground, way: NDArray[np.float64], tolerance_m: float) -> NDArray[np.float64]:
+def follow_floor(ground: FloorGrid, way: NDArray[np.float64], tolerance_m: float) -> NDArray[np.float64]:
     """Returns floor points (n, 3) along the way, with one more wherever the slope of the floor changes."""
     cells = np.abs(np.diff(way[:, 1:], axis=0)).sum(axis=1) / ground.cell_m
     profile = np.empty((int(cells.max(initial=0)) + 8, 2))
