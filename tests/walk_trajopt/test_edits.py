@@ -9,6 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from walk_building import BodySweep, Building, ParameterError
+from walk_building.route import Router
+from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.optimiser import Optimiser
 
 
@@ -51,8 +53,9 @@ def test_costs_kept_beside_an_edit_are_those_of_the_whole_path(optimiser: Optimi
     rng = np.random.default_rng(0)
     for _ in range(12):
         keypoint = int(rng.integers(5))
-        assert optimiser.move_keypoint(keypoint, (*rng.uniform([1, 1], [11, 7]), 1.6)).accepted
-        kept, whole = optimiser.state.terms, optimiser._terms(optimiser.state)
+        hasty = bool(rng.integers(2))
+        assert optimiser.move_keypoint(keypoint, (*rng.uniform([1, 1], [11, 7]), 1.6), hasty=hasty).accepted
+        kept, whole = optimiser.state.terms, optimiser.pieces.terms(optimiser.state)
         for name, terms in whole.items():
             np.testing.assert_allclose(kept[name], terms, atol=1e-9, err_msg=name)
 
@@ -89,6 +92,44 @@ def test_an_edit_without_a_way_keeps_the_last_path_and_says_why(screen: Building
     outside = optimiser.move_keypoint(1, (20, 3, 1.6))
     assert not outside.accepted and "no floor" in outside.reason
     np.testing.assert_array_equal(optimiser.path().points, before.points)
+
+
+@pytest.mark.parametrize("hasty", [False, True])
+def test_a_router_leads_a_dragged_keypoint_round_the_screen(screen: Building, hasty: bool) -> None:
+    keypoints = eyes((1, 1), (2, 3), (1, 5))
+    optimiser = Optimiser(screen, keypoints, keypoints, router=Router(screen, comfort_m=0.2))
+    optimiser.solve()
+    optimiser.check()
+    sweep = BodySweep(screen.geometry, screen.walker)
+    # Through the screen, which ends at y = 4, back in front of it, and through it again.
+    for place in ((6, 3), (6.2, 3), (2, 3), (6, 2), (6, 1)):
+        outcome = optimiser.move_keypoint(1, (*place, 1.6), hasty=hasty)
+        assert outcome.accepted, outcome.reason
+        assert sweep.segments_free(outcome.path.points).all()
+        assert np.linalg.norm(outcome.path.points[outcome.path.keypoint_index[1], :2] - place) < 0.75
+    assert outcome.path.points[:, 1].max() > 4.2
+
+
+def test_hasty_moves_keep_what_they_found_and_the_last_one_forgets_it(rooms: Building) -> None:
+    # Points half a metre apart and a corner to cut: without more weight on the clearance the curve collides.
+    keypoints = eyes((1, 0.6), (3.5, 3.2), (7, 0.6))
+    optimiser = Optimiser(rooms, keypoints, keypoints, TrajoptConfig(points=12), router=Router(rooms, comfort_m=0.2))
+    optimiser.solve()
+    optimiser.check()
+    sweep = BodySweep(rooms.geometry, rooms.walker)
+    firm = []
+    for t in np.linspace(0.0, 1.0, 30):
+        outcome = optimiser.move_keypoint(1, (3.5 + t, 3.2 - t, 1.6), hasty=True)
+        firm.append(int((optimiser.state.firmness > 1.0).sum()))
+        assert not outcome.accepted or sweep.segments_free(outcome.path.points).all()
+    assert max(firm) > 0, "the test would say nothing"
+    dragged = optimiser.move_keypoint(1, (3.5, 3.2, 1.6))
+    fresh = Optimiser(rooms, keypoints, keypoints, TrajoptConfig(points=12))
+    fresh.solve()
+    fresh.check()
+    direct = fresh.move_keypoint(1, (3.5, 3.2, 1.6))
+    assert dragged.accepted and sweep.segments_free(dragged.path.points).all()
+    assert dragged.path.total_cost <= 1.05 * direct.path.total_cost
 
 
 def test_a_replanned_leg_takes_the_place_of_a_bent_one(screen: Building) -> None:

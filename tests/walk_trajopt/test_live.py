@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from walk_building import BodySweep, Building
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.live import LivePath, Revision, live_path
-from walk_trajopt.optimiser import Optimiser
 from walk_trajopt.path import OptimisedPath
+from walk_trajopt.pieces import Pieces
 
 PLACES = {0: (1, 1), 1: (3, 6), 2: (6, 2), 3: (9, 6), 4: (11, 1)}
 
@@ -48,13 +48,13 @@ def live(hall: Building) -> LivePath:
 def solves(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
     """The ranges of points that are solved from here on."""
     seen: list[tuple[int, int]] = []
-    solve = Optimiser._solve
+    solve = Pieces.solve
 
-    def watched(self, state, first, last, config=None):  # type: ignore[no-untyped-def]
+    def watched(self, state, first, last, config):  # type: ignore[no-untyped-def]
         seen.append((first, last))
         return solve(self, state, first, last, config)
 
-    monkeypatch.setattr(Optimiser, "_solve", watched)
+    monkeypatch.setattr(Pieces, "solve", watched)
     return seen
 
 

@@ -116,11 +116,11 @@ def _against(
     for _ in range(compared):
         k, there = _move(random, stops)
         seen: list[tuple[Problem, NDArray[np.float64], float]] = []
-        optimiser.watch = lambda problem, start, cost, seen=seen: seen.append((problem, start, cost))
+        optimiser.pieces.watch = lambda problem, start, cost, seen=seen: seen.append((problem, start, cost))
         started = time.perf_counter()
         optimiser.move_keypoint(k, there)
         ours.append(time.perf_counter() - started)
-        optimiser.watch = None
+        optimiser.pieces.watch = None
         problem, start, cost = seen[0]
         setting = dataclasses.replace(problem.setting, geometry=place.geometry)
         plain = Problem(setting, config, problem.fixed)

@@ -22,8 +22,8 @@ from walk_trajopt.repair import Mended, Way
 from walk_trajopt.state import State
 
 _log = logging.getLogger(__name__)
-_FORMAT = 1  # raised when a state gets another content or meaning
-_ARRAYS = ("keypoints", "radius_m", "pinned", "keypoint_m", "keypoint_index", "start", "arc_m", "x")
+_FORMAT = 2  # raised when a state gets another content or meaning
+_ARRAYS = ("keypoints", "radius_m", "pinned", "keypoint_m", "keypoint_index", "start", "arc_m", "x", "firmness")
 
 
 def default_state_dir() -> Path:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.building import Building
+from walk_building.route import Router
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.kept import Kept
 from walk_trajopt.optimiser import EditOutcome, Optimiser
@@ -79,17 +80,26 @@ class LivePath(abc.ABC):
         """Goes back to the last revision, and returns its path."""
 
     @abc.abstractmethod
-    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+    def _moved(self, keypoint: int, position: NDArray[np.float64], hasty: bool) -> EditOutcome:
         """Moves a keypoint that is not locked."""
 
-    def move(self, identity: int, position: NDArray[np.float64]) -> EditOutcome:
-        """Moves a keypoint of the last revision: the new path, or the last valid one and the reason."""
+    def prepare(self) -> None:  # noqa: B027  the other mode has nothing to prepare
+        """Does beforehand what the first edit would wait for."""
+
+    def move(self, identity: int, position: NDArray[np.float64], *, hasty: bool = False) -> EditOutcome:
+        """Moves a keypoint of the last revision: the new path, or the last valid one and the reason.
+
+        Args:
+            identity: Which one.
+            position: (3,) where its eye is wanted [m].
+            hasty: One of many moves that follow each other.
+        """
         assert self._revision is not None, "follow a revision first"
         if identity not in self._revision.ids:
             return EditOutcome(path=self.path(), accepted=False, reason="the tour has no such keypoint")
         if identity in self._revision.locked:
             return EditOutcome(path=self.path(), accepted=False, reason=_LOCKED)
-        outcome = self._moved(self._revision.ids.index(identity), position)
+        outcome = self._moved(self._revision.ids.index(identity), position, hasty)
         if outcome.accepted:
             self._shown[identity] = position
         return outcome
@@ -116,6 +126,15 @@ class OptimisedWalk(LivePath):
         self._optimiser: Optimiser | None = None
         self._kept = None if folder is None else Kept(folder, building.hash, config)
         self._known: OrderedDict[tuple[object, ...], State] = OrderedDict()
+        self._router: Router | None = None
+
+    def prepare(self) -> None:
+        """Lays the floor out for finding other ways."""
+        if self._router is None:
+            comfort_m = max(self._config.clearance_m - self._building.walker.radius_m, 0.0)
+            self._router = Router(self._building, comfort_m)
+        if self._optimiser is not None:
+            self._optimiser.router = self._router
 
     @property
     def keypoints(self) -> NDArray[np.float64]:
@@ -151,7 +170,7 @@ class OptimisedWalk(LivePath):
             self._remember(key)
         if self._kept and (before is None or key != before.key):
             assert self._optimiser is not None
-            self._kept.save(revision.digest, self._known[key], self._optimiser.spacing_m)
+            self._kept.save(revision.digest, self._known[key], self._optimiser.pieces.spacing_m)
         return self.path()
 
     def _restored(self) -> OptimisedPath:
@@ -159,14 +178,14 @@ class OptimisedWalk(LivePath):
         self._optimiser.state = self._known[self._revision.key]
         return self.path()
 
-    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+    def _moved(self, keypoint: int, position: NDArray[np.float64], hasty: bool) -> EditOutcome:
         assert self._optimiser is not None
-        return self._optimiser.move_keypoint(keypoint, position)
+        return self._optimiser.move_keypoint(keypoint, position, hasty=hasty)
 
     def _solve(self, revision: Revision) -> None:
         self._optimiser = None
         optimiser = Optimiser(
-            self._building, revision.polyline, revision.keypoints, self._config, locked=revision.pinned
+            self._building, revision.polyline, revision.keypoints, self._config, revision.pinned, self._router
         )
         kept = self._kept.load(revision.digest) if self._kept else None
         if kept is None or not optimiser.restore(*kept):
@@ -209,7 +228,7 @@ class ManualWalk(LivePath):
         assert self._revision is not None
         return self.follow(self._revision)
 
-    def _moved(self, keypoint: int, position: NDArray[np.float64]) -> EditOutcome:
+    def _moved(self, keypoint: int, position: NDArray[np.float64], hasty: bool) -> EditOutcome:  # noqa: ARG002  a spline is fast
         moved = self._keypoints.copy()
         moved[keypoint] = position
         self._path = spline_path(self._building, moved, self._config, self._config.mode)

@@ -110,6 +110,7 @@ class TrajoptNode(WalkNode):
         self._publish(path, plan, timing)
         self.get_logger().info(f"a walk past {len(plan.ids)} keypoints is published: {path.length_m:.0f} m")
         self.diagnostics.note(solve_ms=f"{1e3 * (self.now_s() - began):.1f}")
+        live.prepare()
 
     def _follow_edits(self, building: Building, plan: Plan, timing: TimingConfig) -> None:
         """Follows the latest edit of each keypoint; the ones before it are dropped."""
@@ -122,7 +123,8 @@ class TrajoptNode(WalkNode):
         for edit, came_s in latest.values():
             if self._live is None or edit.keypoint not in plan.ids:
                 continue
-            outcome = self._live.move(edit.keypoint, eye_over_floor(building, edit.position))
+            hasty = edit.kind is EditKind.DRAG
+            outcome = self._live.move(edit.keypoint, eye_over_floor(building, edit.position), hasty=hasty)
             if outcome.accepted:
                 self._publish(outcome.path, plan, timing)
                 self.diagnostics.latency(self.now_s() - came_s)

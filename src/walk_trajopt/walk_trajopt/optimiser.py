@@ -5,32 +5,27 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from walk_building.building import Building
 from walk_building.errors import ParameterError
-from walk_trajopt.check import PathCheck
+from walk_building.route import Router
 from walk_trajopt.config import TrajoptConfig
-from walk_trajopt.objectives import Setting
+from walk_trajopt.guard import Guard, Stretches
 from walk_trajopt.path import OptimisedPath
+from walk_trajopt.pieces import Pieces
 from walk_trajopt.polyline import Polyline, as_polyline_points, tour_of
-from walk_trajopt.problem import Problem
-from walk_trajopt.repair import Mended, colliding, repair
 from walk_trajopt.resample import keypoint_arcs, point_count
 from walk_trajopt.result import path_of
 from walk_trajopt.revise import ends_at_keypoints, revised, share_of_new
-from walk_trajopt.solvers import SOLVERS, Solution
-from walk_trajopt.state import State, around, bent, drawn, initial_state
+from walk_trajopt.solvers import Solution
+from walk_trajopt.state import Legs, State, bent, initial_state
 
 _ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
-
 _MOSTLY_NEW = 0.5  # share of new legs above which solving all of them finds a better path in the same time
-
-_EASE_M = 1.5  # on both sides of a colliding stretch that is optimised again
-_EASED = "optimised again with more weight on the clearance"
+_HASTY_ITERATIONS = 10  # of a drag: the next one goes on from there, and the release takes its time
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +37,17 @@ class EditOutcome:
     reason: str  # why it was refused, "" if it was not
 
 
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class _Try:
+    """A moved keypoint, its way drawn and swept."""
+
+    state: State
+    touching: Stretches  # of its way
+    hopeless: Stretches  # of these, where it cannot be mended
+    solution: Solution
+    mended: bool = False
+
+
 class Optimiser:
     """Holds one trajectory problem and its solution; an edit changes both locally.
 
@@ -49,9 +55,9 @@ class Optimiser:
 
     Attributes:
         config: As given.
-        spacing_m: h, the mean distance between points of the tour that was solved as a whole.
+        pieces: Solves what an edit changes; its spacing is that of the tour that was solved as a whole.
+        router: Finds another way where a bent leg collides; without one such an edit is refused.
         state: The solution; taking back an earlier one undoes what came after it.
-        watch: Told of each problem that is solved, where it started and at what cost it ended; for benchmarks.
     """
 
     def __init__(
@@ -61,6 +67,7 @@ class Optimiser:
         keypoints: ArrayLike,
         config: TrajoptConfig | None = None,
         locked: ArrayLike | None = None,
+        router: Router | None = None,
     ) -> None:
         """Takes a tour as it was planned; `solve` and `check` make a path of it.
 
@@ -70,17 +77,19 @@ class Optimiser:
             keypoints: (M, 3) in the order of the tour, which passes them [m].
             config: The problem and its solver.
             locked: (M,) keypoints that the path passes exactly; None for none.
+            router: Finds another way where a bent leg collides; None for none.
         """
         self.config = config or TrajoptConfig()
+        self._hasty = dataclasses.replace(
+            self.config, max_iterations=min(self.config.max_iterations, _HASTY_ITERATIONS)
+        )
         self._building = building
-        self._check = PathCheck(building.geometry, building.walker)
+        self.router = router
+        self._guard = Guard(building, self.config.chord_error_m)
         tour = tour_of(polyline)
         n = point_count(tour.length_m, self.config)
         self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
-        self.spacing_m = tour.length_m / (n - 1)
-        self.watch: Callable[[Problem, NDArray[np.float64], float], None] | None = None
-        # The points that were solved last and their problem, which knows much about the geometry around them.
-        self._solved: tuple[NDArray[np.float64], Problem] | None = None
+        self.pieces = Pieces(building, self.config, tour.length_m / (n - 1))
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
@@ -89,29 +98,29 @@ class Optimiser:
         There are many minima, and which one is found depends on the way. The default solver is fast enough to go two
         ways, straight from the tour and after a problem with more clearance; the better end counts.
         """
-        start = dataclasses.replace(self.state, x=self.state.start)
+        start = dataclasses.replace(self.state, x=self.state.start, firmness=np.ones(len(self.state.x)))
         last = len(start.x) - 1
-        self._solution = self._solve(start, 0, last)
+        self._solution = self.pieces.solve(start, 0, last, self.config)
         if self.config.solver == "levenberg_marquardt":
-            wide = self._solve(start, 0, last, dataclasses.replace(self._stiffer(), tolerance=_ROUGH))
-            other = self._solve(dataclasses.replace(start, x=wide.x), 0, last)
+            weight = min(10.0 * self.config.weight_clearance + 1.0, 1e6)
+            clear = dataclasses.replace(self.config, weight_clearance=weight, tolerance=_ROUGH)
+            wide = self.pieces.solve(start, 0, last, clear)
+            other = self.pieces.solve(dataclasses.replace(start, x=wide.x), 0, last, self.config)
             self._solution = min(self._solution, other, key=lambda solution: solution.cost)
         solved = dataclasses.replace(start, x=self._solution.x)
-        self.state = dataclasses.replace(solved, terms=self._terms(solved))
+        self.state = dataclasses.replace(solved, terms=self.pieces.terms(solved))
 
     def restore(self, state: State, spacing_m: float) -> bool:
         """Goes on from a state that was kept; returns whether it may, which is where its path still passes."""
-        window = float(state.arc_m[0]), float(state.arc_m[-1])
-        if colliding(state.way, self._check, window):
+        if not self._guard.passes(state):
             return False
-        self.state, self.spacing_m = state, spacing_m
+        self.state, self.pieces.spacing_m = state, spacing_m
         return True
 
     def check(self) -> OptimisedPath:
         """Sweeps the body along the whole path, repairs it where it does not pass, and returns it."""
-        last = len(self.state.x) - 1
-        checked = self._checked(self.state, 0, last)
-        self.state = dataclasses.replace(checked, terms=self._terms(checked))
+        checked = self._checked(self.state, 0, len(self.state.x) - 1, self.config)
+        self.state = dataclasses.replace(checked, terms=self.pieces.terms(checked))
         return self.path()
 
     def move_keypoint(
@@ -120,6 +129,8 @@ class Optimiser:
         position: ArrayLike,
         before: ArrayLike | None = None,
         after: ArrayLike | None = None,
+        *,
+        hasty: bool = False,
     ) -> EditOutcome:
         """Moves a keypoint and optimises the legs beside it, from where they are.
 
@@ -128,6 +139,8 @@ class Optimiser:
             position: (3,) where its eye is wanted; the floor decides about the height [m].
             before: (L, 3) a newly planned leg from the keypoint before to the position; None bends the one there is.
             after: (L, 3) the same from the position to the keypoint after.
+            hasty: One of many moves that follow each other: what the ones before found out about the clearance is
+                kept, and few iterations must do. A move that is not is solved as if it were the first.
 
         Returns:
             The new path; or, if there is no floor or the body does not pass even after repair, the last valid path
@@ -139,22 +152,18 @@ class Optimiser:
         if not 0 <= keypoint < len(self.state.keypoints):
             raise ParameterError("keypoint", keypoint, f"an index below {len(self.state.keypoints)}")
         if self.state.pinned[keypoint]:
-            return EditOutcome(path=self.path(), accepted=False, reason="the keypoint is locked")
+            return self._refused("the keypoint is locked")
         eye = self._on_floor(as_polyline_points("position", np.reshape(position, (-1, 3)), at_least=1))
         if not np.isfinite(eye).all():
-            return EditOutcome(path=self.path(), accepted=False, reason="there is no floor below the new place")
-        legs = tuple(None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
-        radius = float(self._radii(eye)[0])
-        moved = bent(self.state, keypoint, eye[0], radius, (legs[0], legs[1]), self.spacing_m)
-        first, last = moved.window(keypoint)
-        solution = self._solve(moved, first, last)
-        checked = self._checked(dataclasses.replace(moved, x=solution.x), first, last)
-        stuck = [m for m in checked.mended if not m.free and m not in self.state.mended]
-        if stuck:
-            reason = f"the body would touch the building {len(stuck)} times beside keypoint {keypoint}"
-            return EditOutcome(path=self.path(), accepted=False, reason=reason)
-        self.state = dataclasses.replace(checked, terms=self._spliced_terms(checked, first, last))
-        self._solution = solution
+            return self._refused("there is no floor below the new place")
+        before, after = (None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
+        tried = self._moved(keypoint, eye[0], (before, after), hasty)
+        if tried.hopeless:
+            times = len(tried.hopeless)
+            return self._refused(f"the body would touch the building {times} times beside keypoint {keypoint}")
+        window = tried.state.window(keypoint)
+        self.state = dataclasses.replace(tried.state, terms=self.pieces.spliced_terms(self.state, tried.state, *window))
+        self._solution = tried.solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
     def revise(
@@ -173,7 +182,7 @@ class Optimiser:
             changed, and the whole problem had better be solved.
         """
         tour, stops = tour_of(polyline), as_polyline_points("keypoints", keypoints, at_least=0)
-        n = max(round(tour.length_m / self.spacing_m), len(stops)) + 1
+        n = max(round(tour.length_m / self.pieces.spacing_m), len(stops)) + 1
         fresh = self._fresh(tour, stops, locked, n)
         if not (ends_at_keypoints(fresh) and ends_at_keypoints(self.state)):
             return False
@@ -181,9 +190,9 @@ class Optimiser:
             return False
         state, windows = revised(self.state, fresh, came_from)
         for first, last in windows:
-            self._solution = self._solve(state, first, last)
-            state = self._checked(dataclasses.replace(state, x=self._solution.x), first, last)
-        self.state = dataclasses.replace(state, terms=self._terms(state))
+            self._solution = self.pieces.solve(state, first, last, self.config)
+            state = self._checked(dataclasses.replace(state, x=self._solution.x), first, last, self.config)
+        self.state = dataclasses.replace(state, terms=self.pieces.terms(state))
         return True
 
     def path(self) -> OptimisedPath:
@@ -201,89 +210,65 @@ class Optimiser:
         floor = self._building.surface.floor_z(eyes, height)
         return np.column_stack([eyes[:, :2], floor + height])
 
-    def _solve(self, state: State, first: int, last: int, config: TrajoptConfig | None = None) -> Solution:
-        """Optimises the points between `first` and `last`, these two and all beyond them fixed."""
-        config = config or self.config
-        low, high = around(state, first, last)
-        fixed = np.ones(high - low, bool)
-        fixed[first + 1 - low : last - low] = False
-        pins = state.keypoint_index[state.pinned] - low
-        fixed[pins[(pins >= 0) & (pins < high - low)]] = True
-        problem = Problem(self._setting(state, low, high), config, fixed)
-        solution = SOLVERS[config.solver](problem, state.x[low:high], config)
-        if self.watch is not None:
-            self.watch(problem, state.x[low:high], solution.cost)
-        x = state.x.copy()
-        x[low:high] = solution.x
-        self._solved = (x, problem) if config is self.config else None
-        return dataclasses.replace(solution, x=x)
-
-    def _stiffer(self) -> TrajoptConfig:
-        return dataclasses.replace(self.config, weight_clearance=min(10.0 * self.config.weight_clearance + 1.0, 1e6))
-
-    def _terms(self, state: State) -> dict[str, NDArray[np.float64]]:
-        free = np.zeros(len(state.x), bool)
-        return Problem(self._setting(state, 0, len(state.x)), self.config, free).terms(state.x)
-
-    def _spliced_terms(self, state: State, first: int, last: int) -> dict[str, NDArray[np.float64]]:
-        """Returns the terms of a state that differs from the present one between two points: beside, they stay."""
-        low, high = around(state, first, last)
-        if self._solved is not None and self._solved[0] is state.x:
-            problem = self._solved[1]
-        else:
-            problem = Problem(self._setting(state, low, high), self.config, np.zeros(high - low, bool))
-        new, added = problem.terms(state.x[low:high]), len(state.x) - len(self.state.x)
-        return {
-            name: np.concatenate([old[:low], new[name][: last - low], old[last - added :]])
-            for name, old in self.state.terms.items()
-        }
-
     def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""
         surface = self._building.surface
         places = surface.nearest(keypoints - np.array([0.0, 0.0, self._building.walker.eye_height_m]))
         return np.minimum(self.config.keypoint_radius_m, 0.5 * surface.clearance_m[places])
 
-    def _setting(self, state: State, low: int, high: int) -> Setting:
-        inside = (state.keypoint_index >= low) & (state.keypoint_index < high)
-        return Setting(
-            start=state.start[low:high],
-            spacing_m=self.spacing_m,
-            keypoints=state.keypoints[inside],
-            keypoint_index=state.keypoint_index[inside] - low,
-            keypoint_radius_m=state.radius_m[inside],
-            geometry=self._building.geometry,
-            surface=self._building.surface,
-            walker=self._building.walker,
-            clearance_m=self.config.clearance_m,
-            clearance_of=self.config.clearance_of,
-        )
+    def _refused(self, reason: str) -> EditOutcome:
+        return EditOutcome(path=self.path(), accepted=False, reason=reason)
 
-    def _checked(self, state: State, first: int, last: int) -> State:
+    def _moved(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, hasty: bool) -> _Try:
+        """Returns the state with a keypoint moved, checked; by other legs where a bent one leads through a wall."""
+        config = self._hasty if hasty else self.config
+        tried = self._bent(keypoint, eye, legs, config)
+        # A leg that is found anew may push the other one, which was bent, into a wall of its own: twice at most.
+        while True:
+            if not tried.hopeless:
+                tried = self._mended(tried, keypoint, config)
+            others = self._other_legs(keypoint, eye, legs, tried.hopeless)
+            if others is None:
+                break
+            legs = others
+            tried = self._bent(keypoint, eye, legs, config)
+        # In vain, most likely; a hand that goes on does not wait for it.
+        return tried if tried.mended or hasty else self._mended(tried, keypoint, config)
+
+    def _mended(self, tried: _Try, keypoint: int, config: TrajoptConfig) -> _Try:
+        first, last = tried.state.window(keypoint)
+        state = self._guard.mended(tried.state, first, last, tried.touching, self.pieces, config)
+        stuck = [(m.start_m, m.end_m) for m in state.mended if not m.free and m not in self.state.mended]
+        return dataclasses.replace(tried, state=state, hopeless=stuck, mended=True)
+
+    def _bent(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, config: TrajoptConfig) -> _Try:
+        """Returns the state with a keypoint moved, solved and drawn, and where it collides."""
+        radius = float(self._radii(eye[None])[0])
+        moved = bent(self.state, keypoint, eye, radius, legs, self.pieces.spacing_m)
+        first, last = moved.window(keypoint)
+        if config is self.config:
+            moved = moved.relaxed(first, last)
+        solution = self.pieces.solve(moved, first, last, config)
+        state, touching = self._guard.swept(dataclasses.replace(moved, x=solution.x), first, last)
+        hopeless = self._guard.hopeless(state, touching)
+        return _Try(state=state, touching=touching, hopeless=hopeless, solution=solution)
+
+    def _other_legs(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, hopeless: Stretches) -> Legs | None:
+        """Returns the legs, those found anew that are bent through a wall; None where there is none to find."""
+        if self.router is None or not hopeless:
+            return None
+        first, last = self.state.window(keypoint)
+        here = float(self.state.keypoint_m[keypoint])
+        begin, end = (self.state.tour.at(self.state.arc_m[at])[0] for at in (first, last))
+        before, after = legs
+        if before is None and any(a < here for a, _ in hopeless):
+            before = self.router.way(begin, eye)
+        if after is None and any(b > here for _, b in hopeless):
+            after = self.router.way(eye, end)
+        found = before is not legs[0] or after is not legs[1]
+        return (before, after) if found else None
+
+    def _checked(self, state: State, first: int, last: int, config: TrajoptConfig) -> State:
         """Draws the curve through points `first` to `last` anew, sweeps the body along it and repairs it."""
-        # A curve reaches one span beyond a moved point.
-        begin, end = max(first - 1, 0), min(last + 1, len(state.x) - 1)
-        window = float(state.arc_m[begin]), float(state.arc_m[end])
-        state = drawn(state, begin, end, self.config.chord_error_m)
-        touching, eased = colliding(state.way, self._check, window), []
-        for stretch in touching:
-            state = self._eased(state, stretch, (first, last))
-            eased.append(Mended(start_m=stretch[0], end_m=stretch[1], free=True, how=_EASED))
-        if eased:
-            state = drawn(state, begin, end, self.config.chord_error_m)
-            touching = colliding(state.way, self._check, window)
-        way, mended = repair(state.way, state.tour, state.keypoint_m, state.pins(), self._check, touching)
-        eased = [e for e in eased if not any(m.start_m < e.end_m and m.end_m > e.start_m for m in mended)]
-        kept = [m for m in state.mended if m.end_m < window[0] or m.start_m > window[1]]
-        return dataclasses.replace(state, way=way, mended=tuple(sorted(kept + eased + mended, key=lambda m: m.start_m)))
-
-    def _eased(self, state: State, stretch_m: tuple[float, float], limits: tuple[int, int]) -> State:
-        """Optimises a stretch that collides again: from the planned tour, with more weight on the clearance."""
-        first = max(int(np.searchsorted(state.arc_m, stretch_m[0] - _EASE_M)), limits[0])
-        last = min(int(np.searchsorted(state.arc_m, stretch_m[1] + _EASE_M)), limits[1])
-        if last - first < 2:
-            return state
-        x = state.x.copy()
-        x[first + 1 : last] = state.start[first + 1 : last]
-        solution = self._solve(dataclasses.replace(state, x=x), first, last, self._stiffer())
-        return dataclasses.replace(state, x=solution.x)
+        state, touching = self._guard.swept(state, first, last)
+        return self._guard.mended(state, first, last, touching, self.pieces, config)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.objectives import OBJECTIVES, Objective, PointwiseObjective, QuadraticObjective, Setting
 from walk_trajopt.objectives.base import banded_product
+from walk_trajopt.objectives.clearance import Clearance
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -20,9 +21,10 @@ class Local:
     """The problem around one set of points: everything a second-order step needs.
 
     The cost there is a quadratic function with the constant Hessian, plus for each pointwise objective k
-    scale[k] Σ_i (max_j values[i, j])² with j from first[k] up to first[k + 1].
+    Σ_i scale[i, k] (max_j values[i, j])² with j from first[k] up to first[k + 1].
     """
 
+    x: NDArray[np.float64]  # (n, 3) the points
     value: float
     gradient: NDArray[np.float64]  # (n, 3) of the quadratic objectives
     values: NDArray[np.float64]  # (n, P) of the pointwise objectives' pieces, −inf where there is none
@@ -40,18 +42,44 @@ class Problem:
         fixed: (n,) bool.
         bands: (3, n) lower bands of half the constant Hessian of the quadratic objectives, per coordinate.
         first: (G + 1,) where each pointwise objective's pieces begin.
-        scale: (G,) each pointwise objective's weight times the spacing.
+        scale: (n, G) each pointwise objective's weight times the spacing, at each point.
     """
 
-    def __init__(self, setting: Setting, config: TrajoptConfig, fixed: NDArray[np.bool_]) -> None:
+    def __init__(
+        self,
+        setting: Setting,
+        config: TrajoptConfig,
+        fixed: NDArray[np.bool_],
+        firmness: NDArray[np.float64] | None = None,
+        before: Problem | None = None,
+    ) -> None:
+        """Puts the objectives together.
+
+        Args:
+            setting: What they refer to.
+            config: Their weights.
+            fixed: (n,) points that stay where they are.
+            firmness: (n,) how many times as much the clearance counts at each point; None for once.
+            before: A problem about much the same points, no longer in use: what it knows of the geometry is kept.
+        """
         self.setting = setting
         self.fixed = fixed
         self._objectives: dict[str, tuple[float, Objective]] = {
             name: (config.weight(name), kind(setting)) for name, kind in OBJECTIVES.items() if config.weight(name) > 0.0
         }
+        self._names = {objective: name for name, (_, objective) in self._objectives.items()}
         self._pointwise = [(w, o) for w, o in self._objectives.values() if isinstance(o, PointwiseObjective)]
+        known = {} if before is None else before._objectives
+        for name, (_, objective) in self._objectives.items():
+            if name in known and isinstance(objective, PointwiseObjective):
+                objective.learn_from(known[name][1])
         self.first = np.cumsum([0, *(o.pieces for _, o in self._pointwise)])
-        self.scale = np.array([w * setting.spacing_m for w, _ in self._pointwise])
+        self.scale = np.empty((len(setting.start), len(self._pointwise)))
+        self.scale[:] = [w * setting.spacing_m for w, _ in self._pointwise]
+        if firmness is not None:
+            for k, (_, objective) in enumerate(self._pointwise):
+                if isinstance(objective, Clearance):
+                    self.scale[:, k] *= firmness
         self.bands = np.zeros((3, len(setting.start)))
         self._linear = np.zeros_like(setting.start)
         self._constant = 0.0
@@ -68,10 +96,10 @@ class Problem:
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the cost at points `x` (n, 3) and its gradient (n, 3), which is zero at fixed points."""
         value, gradient = self._evaluate_quadratic(x)
-        for weight, objective in self._pointwise:
-            term, slope = objective.evaluate(x)
-            value += weight * term
-            gradient += weight * slope
+        for scale, (_, objective) in zip(self.scale.T, self._pointwise, strict=True):
+            residual, jacobian = objective.residuals(x)
+            value += float(scale @ residual**2)
+            gradient += 2.0 * (scale * residual)[:, None] * jacobian
         gradient[self.fixed] = 0.0
         return value, gradient
 
@@ -83,11 +111,24 @@ class Problem:
         for (_, objective), a, b in zip(self._pointwise, self.first[:-1], self.first[1:], strict=True):
             objective.write_pieces(x, values[:, a:b], slopes[:, a:b], bends[:, a:b])
         value += sum_of_squares(values, self.first, self.scale)
-        return Local(value=value, gradient=gradient, values=values, slopes=slopes, bends=bends)
+        return Local(x=x, value=value, gradient=gradient, values=values, slopes=slopes, bends=bends)
 
     def terms(self, x: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-        """Returns the weighted terms (n,) of each objective at points `x` (n, 3), by name."""
+        """Returns the weighted terms (n,) of each objective at points `x` (n, 3), by name; no firmness is in them."""
         return {name: weight * objective.terms(x) for name, (weight, objective) in self._objectives.items()}
+
+    def terms_of(self, local: Local) -> dict[str, NDArray[np.float64]]:
+        """Returns what `terms` returns at the points of `local`, the pointwise ones from what is known there."""
+        out = {
+            name: weight * objective.terms(local.x)
+            for name, (weight, objective) in self._objectives.items()
+            if isinstance(objective, QuadraticObjective)
+        }
+        h = self.setting.spacing_m
+        for (weight, objective), a, b in zip(self._pointwise, self.first[:-1], self.first[1:], strict=True):
+            largest = local.values[:, a:b].max(axis=1)
+            out[self._names[objective]] = weight * h * np.where(largest > -np.inf, largest, 0.0) ** 2
+        return out
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         value, gradient = _quadratic(self.bands, self._linear, x)
@@ -108,13 +149,13 @@ def _quadratic(bands, linear, x):
 
 @numba.njit(cache=True, nogil=True)
 def sum_of_squares(values, first, scale):
-    """Returns Σ_k scale_k Σ_i (largest of point i's pieces of objective k)²."""
+    """Returns Σ_i Σ_k scale[i, k] (largest of point i's pieces of objective k)²."""
     total = 0.0
-    for k in range(len(scale)):
+    for k in range(scale.shape[1]):
         for i in range(len(values)):
             largest = -np.inf
             for j in range(first[k], first[k + 1]):
                 largest = max(largest, values[i, j])
             if largest > -np.inf:
-                total += scale[k] * largest * largest
+                total += scale[i, k] * largest * largest
     return total

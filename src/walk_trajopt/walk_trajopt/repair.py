@@ -80,6 +80,16 @@ def colliding(way: Way, check: PathCheck, window_m: tuple[float, float]) -> list
     return colliding_runs(free, way.tour_m, _GAP_M)
 
 
+def planned_way_is_free(
+    way: Way, tour: Polyline, keep_m: NDArray[np.float64], pins: Way, check: PathCheck, core_m: tuple[float, float]
+) -> bool:
+    """Returns whether the body passes on the planned tour itself along a stretch [m of the tour]."""
+    start, end = core_m
+    planned = _piece(way, tour, (keep_m, pins), core_m, 1e-3, _ATTEMPTS[-1])
+    inner = (planned.tour_m >= start) & (planned.tour_m <= end)
+    return bool(check.segments_free(planned.points[inner]).all())
+
+
 def repair(
     way: Way,
     tour: Polyline,
@@ -112,9 +122,7 @@ def _mend(
     way: Way, tour: Polyline, keep: tuple[NDArray[np.float64], Way], check: PathCheck, core_m: tuple[float, float]
 ) -> tuple[Way, Mended]:
     start, end = core_m
-    planned = _piece(way, tour, keep, core_m, 1e-3, _ATTEMPTS[-1])
-    inner = (planned.tour_m >= start) & (planned.tour_m <= end)
-    tour_free = bool(check.segments_free(planned.points[inner]).all())
+    tour_free = planned_way_is_free(way, tour, *keep, check, core_m)
     for ramp in (*_RAMPS_M, tour.length_m):
         for attempt in _ATTEMPTS:
             piece = _piece(way, tour, keep, core_m, ramp, attempt)

@@ -26,6 +26,7 @@ class Leg:
     arc_m: NDArray[np.float64]  # (k,)
     start: NDArray[np.float64]  # (k, 3)
     x: NDArray[np.float64]  # (k, 3)
+    firmness: NDArray[np.float64]  # (k,)
     way: Way
     mended: tuple[Mended, ...]
     span_m: float  # of the parameter
@@ -47,6 +48,7 @@ def leg_of(state: State, k: int) -> Leg:
         arc_m=state.arc_m[rows] - low,
         start=state.start[rows],
         x=state.x[rows],
+        firmness=state.firmness[rows],
         way=Way(points=way.points, tour_m=way.tour_m - low),
         mended=tuple(_shifted(m, -low) for m in state.mended if low <= 0.5 * (m.start_m + m.end_m) < high),
         span_m=high - low,
@@ -153,6 +155,7 @@ def _joined(fresh: State, legs: list[Leg], kept: list[bool]) -> State:
         start=chained([leg.start for leg in legs]),
         arc_m=chained([begin + leg.arc_m for leg, begin in shifted]),
         x=x,
+        firmness=chained([leg.firmness for leg in legs]),
         way=Way(points=chained([leg.way.points for leg in legs]), tour_m=way_m),
         mended=tuple(_shifted(m, begin) for leg, begin in shifted for m in leg.mended),
     )

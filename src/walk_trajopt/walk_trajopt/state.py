@@ -16,6 +16,12 @@ from walk_trajopt.resample import resample
 
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
 _UNEVEN = 1.5  # a leg whose points are so much farther apart, or nearer, than the mean gets another number of them
+Legs = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]
+"""Newly planned legs to and from a keypoint, (L, 3) each; None for one that is bent instead."""
+
+FIRM = 10.0
+"""How many times as much the clearance counts where the path collided without."""
+
 _VERTEX_M = 0.25  # between the vertices of a bent leg, so that each can find its own floor
 
 
@@ -33,6 +39,7 @@ class State:
         start: (n, 3) the points on the tour, x⁰.
         arc_m: (n,) parameter of the tour at each point.
         x: (n, 3) the optimised points.
+        firmness: (n,) how many times as much the clearance counts at each: 1, or FIRM where it had to be more.
         way: The checked curve through them.
         mended: What the repair did.
         terms: The weighted terms (n,) of each objective at `x`, by name.
@@ -47,6 +54,7 @@ class State:
     start: NDArray[np.float64]
     arc_m: NDArray[np.float64]
     x: NDArray[np.float64]
+    firmness: NDArray[np.float64]
     way: Way
     mended: tuple[Mended, ...]
     terms: dict[str, NDArray[np.float64]]
@@ -61,6 +69,12 @@ class State:
         first = int(self.keypoint_index[keypoint - 1]) if keypoint > 0 else 0
         last = int(self.keypoint_index[keypoint + 1]) if keypoint + 1 < len(self.keypoints) else len(self.x) - 1
         return first, last
+
+    def relaxed(self, first: int, last: int) -> State:
+        """Returns the state with the clearance counting once between two points."""
+        firmness = self.firmness.copy()
+        firmness[first : last + 1] = 1.0
+        return dataclasses.replace(self, firmness=firmness)
 
     def pins(self) -> Way:
         """Returns the places that the way must pass exactly."""
@@ -89,6 +103,7 @@ def initial_state(
         start=points,
         arc_m=samples.arc_m,
         x=points,
+        firmness=np.ones(len(points)),
         way=Way(points=points, tour_m=samples.arc_m),
         mended=(),
         terms={},
@@ -115,7 +130,7 @@ def bent(
     keypoint: int,
     position: NDArray[np.float64],
     radius_m: float,
-    legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
+    legs: Legs,
     spacing_m: float,
 ) -> State:
     """Returns the state with one keypoint moved and the legs beside it bent, or replaced by newly planned ones.
@@ -131,9 +146,10 @@ def bent(
     arc = _arcs(Polyline(tour.points[inner], tour.arc_m[inner]), here, state.arc_m[first : last + 1], spacing_m)
     replanned = any(leg is not None for leg in legs)
     if replanned:
-        x = tour.at(arc)
+        x, firmness = tour.at(arc), np.ones(len(arc))
         x[[0, -1]] = np.where(np.array([[low < here], [high > here]]), state.x[[first, last]], position)
     else:
+        firmness = np.where(np.interp(arc, state.arc_m, state.firmness) > 1.0, FIRM, 1.0)
         x = interpolate(arc, state.arc_m, state.x) + _hat(arc, low, here, high)[:, None] * shift
     added = len(arc) - (last + 1 - first)
     index = state.keypoint_index + np.where(np.arange(len(state.keypoints)) > keypoint, added, 0)
@@ -153,6 +169,7 @@ def bent(
         start=spliced(state.start, tour.at(arc)),
         arc_m=spliced(state.arc_m, arc),
         x=spliced(state.x, x),
+        firmness=spliced(state.firmness, firmness),
     )
 
 
@@ -167,7 +184,7 @@ def _bent_tour(
     state: State,
     window: tuple[float, float, float],
     shift: NDArray[np.float64],
-    legs: tuple[NDArray[np.float64] | None, NDArray[np.float64] | None],
+    legs: Legs,
 ) -> Polyline:
     low, here, high = window
     tour = state.tour

@@ -62,7 +62,8 @@ def _distinct(
     """Returns the points without repeated ones, and their arc lengths."""
     step = np.diff(arc_m)
     if len(points) < 2 or step.min() <= _SAME_M:
-        points = points[np.concatenate([[True], step > _SAME_M])]
+        # Read-only as the path's own: for the compiled code, one that is not is another type.
+        points = read_only(points[np.concatenate([[True], step > _SAME_M])])
         arc_m = arc_lengths(points)
     if len(points) < 2:
         raise ParameterError("path", f"{len(points)} different points", "at least 2")

@@ -102,6 +102,9 @@ class PointwiseObjective(Objective):
         values[:, 0], slopes[:, 0] = self.residuals(x)
         bends[:, 0] = 0.0
 
+    def learn_from(self, other: Objective) -> None:
+        """May take over what an objective of the same kind has found out about the geometry."""
+
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the value h Σ r² and the gradient 2 h r J."""
         r, jacobian = self.residuals(x)

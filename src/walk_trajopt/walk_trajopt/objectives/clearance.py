@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.objectives.base import Points, PointwiseObjective, Setting
+from walk_trajopt.objectives.base import Objective, Points, PointwiseObjective, Setting
 from walk_trajopt.objectives.clearance_kernels import write_clearance
 
 _AXIS_STEP_M = 0.35  # between looked-at points of the body's axis: less than the height of a railing's bar or a table
@@ -37,6 +37,11 @@ class Clearance(PointwiseObjective):
         self._far = np.full((len(setting.start), 4), -np.inf)
         self._known = np.full((len(setting.start), 2 * len(above), 8), np.inf)
         self._known[:, :, 3] = -np.inf
+
+    def learn_from(self, other: Objective) -> None:
+        """Takes over what is known about places: it holds whichever points asked for it, and helps those near by."""
+        if isinstance(other, Clearance) and other._known.shape == self._known.shape:
+            self._far, self._known = other._far, other._known
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Returns the shortfalls max(D − d, 0) (n,) and their gradients (n, 3), unit vectors towards the geometry."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_trajopt.config import TrajoptConfig
-from walk_trajopt.problem import Problem
+from walk_trajopt.problem import Local, Problem
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,6 +22,7 @@ class Solution:
     cost: float
     iterations: int
     evaluations: int  # of the cost
+    local: Local | None = None  # the problem around x, of solvers that know it
 
 
 class Solver(Protocol):

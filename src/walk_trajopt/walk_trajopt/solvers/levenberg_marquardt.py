@@ -57,7 +57,7 @@ def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: Trajo
         # Where the model itself sees nothing left to gain, no other damping finds anything either.
         if max(gain, promised) <= enough or small >= _SMALL_ENDS:
             break
-    return Solution(x=x, cost=here.value, iterations=iterations, evaluations=iterations + 1)
+    return Solution(x=x, cost=here.value, iterations=iterations, evaluations=iterations + 1, local=here)
 
 
 def _response(gain: float, promised: float) -> float:
