@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from walk_building.errors import ParameterError
 from walk_trajopt.config import TimingConfig
-from walk_trajopt.heading import Heading, gradient
+from walk_trajopt.heading import Heading, gradient, on_even_grid
 
 _TICK_S = 0.01
 _APART = 3  # places of the grid between two rests, at least
@@ -103,13 +103,16 @@ def _limits(arc_m, yaw, look, bend, turn_rate, lateral_acceleration, speed):
     """Returns the highest speed (g,) at each place of the grid: in turns the body and the eyes have theirs."""
     spacing = arc_m[1]
     turning = gradient(look, spacing)
-    # Where the path turns on the spot, curvature does not say how sudden that is; the change of direction does.
-    ahead, behind = np.interp(arc_m + _BESIDE_M, arc_m, yaw), np.interp(arc_m - _BESIDE_M, arc_m, yaw)
     limit = np.empty(len(arc_m))
     for i in range(len(arc_m)):
         lateral = np.sqrt(lateral_acceleration / max(bend[i], 1e-9))
-        corner = min(abs(ahead[i] - behind[i]), np.pi)
-        sudden = lateral_acceleration * _STEP_S / max(2.0 * np.sin(0.5 * corner), 1e-9)
+        # Where the path turns on the spot, curvature does not say how sudden that is; the change of direction does.
+        ahead = on_even_grid(arc_m[i] + _BESIDE_M, spacing, yaw)
+        corner = min(abs(ahead - on_even_grid(arc_m[i] - _BESIDE_M, spacing, yaw)), np.pi)
+        # The chord of a unit circle is no longer than its arc: most corners need no sine.
+        sudden = lateral_acceleration * _STEP_S / max(corner, 1e-9)
+        if sudden < speed:
+            sudden = lateral_acceleration * _STEP_S / max(2.0 * np.sin(0.5 * corner), 1e-9)
         looking = turn_rate / max(abs(turning[i]), 1e-9)
         limit[i] = min(speed, max(min(lateral, sudden, looking), min(_CREEP_MPS, speed)))
     return limit
@@ -133,10 +136,12 @@ def _widened(limit: NDArray[np.float64], spacing: float, acceleration: float, ha
 def _pass(speed: NDArray[np.float64], spacing: float, acceleration: float) -> None:
     """Lowers the speeds until neighbours can be reached from each other: once forward, once backward."""
     gain = 2.0 * acceleration * spacing
+    square = speed * speed
     for i in range(1, len(speed)):
-        speed[i] = min(speed[i], np.sqrt(speed[i - 1] ** 2 + gain))
+        square[i] = min(square[i], square[i - 1] + gain)
     for i in range(len(speed) - 2, -1, -1):
-        speed[i] = min(speed[i], np.sqrt(speed[i + 1] ** 2 + gain))
+        square[i] = min(square[i], square[i + 1] + gain)
+    speed[:] = np.sqrt(square)
 
 
 @numba.njit(cache=True, nogil=True)

@@ -53,11 +53,39 @@ def heading_of(
 @numba.njit(cache=True, nogil=True)
 def _on_grid(points, arc_m, grid, spacing, lookahead, smoothing):
     knots, direction, slope = _directions(points, arc_m)
-    along, rise = np.interp(grid, knots, direction), np.interp(grid, knots, slope)
+    along, rise = _spread(grid, knots, direction, slope)
     turned, tilted = gaussian(along, _BODY_M / spacing), gaussian(rise, _BODY_M / spacing)
-    look = np.interp(grid + lookahead, grid, gaussian(along, smoothing / spacing))
-    bend = np.hypot(gradient(turned, spacing) * np.cos(tilted), gradient(tilted, spacing))
+    smooth = gaussian(along, smoothing / spacing)
+    turning, tilting = gradient(turned, spacing), gradient(tilted, spacing)
+    look, bend = np.empty(len(grid)), np.empty(len(grid))
+    for i in range(len(grid)):
+        look[i] = on_even_grid(grid[i] + lookahead, spacing, smooth)
+        across = turning[i] * np.cos(tilted[i]) if tilted[i] != 0.0 else turning[i]
+        bend[i] = np.sqrt(across * across + tilting[i] * tilting[i])
     return turned, look, bend
+
+
+@numba.njit(cache=True, nogil=True)
+def _spread(grid, knots, a, b):
+    """Returns two sequences given at rising knots on the rising grid, both at once; the ends go on beyond the ends."""
+    out_a, out_b = np.empty(len(grid)), np.empty(len(grid))
+    cell, last = 0, len(knots) - 1
+    for i in range(len(grid)):
+        while cell < last - 1 and knots[cell + 1] <= grid[i]:
+            cell += 1
+        gap = knots[cell + 1] - knots[cell]
+        share = min(max((grid[i] - knots[cell]) / gap, 0.0), 1.0) if gap > 0.0 else 1.0
+        out_a[i] = a[cell] + share * (a[cell + 1] - a[cell])
+        out_b[i] = b[cell] + share * (b[cell + 1] - b[cell])
+    return out_a, out_b
+
+
+@numba.njit(cache=True, nogil=True)
+def on_even_grid(where, spacing, values):
+    """Returns a sequence given every `spacing` from 0 on, at one place; the ends go on beyond the ends."""
+    place = min(max(where / spacing, 0.0), len(values) - 1.0)
+    cell = min(int(place), len(values) - 2)
+    return values[cell] + (place - cell) * (values[cell + 1] - values[cell])
 
 
 @numba.njit(cache=True, nogil=True)

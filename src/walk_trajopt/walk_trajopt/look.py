@@ -7,11 +7,12 @@ from __future__ import annotations
 import numba
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
 
 from walk_trajopt.clock import Clock
 from walk_trajopt.config import TimingConfig
-from walk_trajopt.heading import Heading
+from walk_trajopt.heading import Heading, on_even_grid
+from walk_trajopt.polyline import interpolate
+from walk_trajopt.smoothing import box
 
 _ARM_M = 0.5  # a target nearer than this is not turned to
 _STANDING_TICKS = 20  # a rest shorter than this is walking
@@ -20,7 +21,7 @@ _STANDING_TICKS = 20  # a rest shorter than this is walking
 def look_angles(
     heading: Heading,
     clock: Clock,
-    positions: NDArray[np.float64],
+    path: tuple[NDArray[np.float64], NDArray[np.float64]],
     targets: NDArray[np.float64],
     target_arc_m: NDArray[np.float64],
     config: TimingConfig,
@@ -30,30 +31,57 @@ def look_angles(
     Args:
         heading: Directions of the path.
         clock: The times, k ticks.
-        positions: (k, 3) of the eye at the ticks [m].
+        path: Its points (n, 3) and their arc lengths (n,) [m].
         targets: (M, 3) what to look at near each keypoint; nan for nothing [m].
         target_arc_m: (M,) arc lengths of the keypoints, rising.
         config: Limits, reach and share of the targets.
     """
-    ahead = np.interp(clock.arc_m, heading.arc_m, heading.look)
-    yaw, pitch = ahead.copy(), np.zeros_like(ahead)
-    for k in np.flatnonzero(np.isfinite(targets).all(axis=1)):
-        near, reach = _near(clock.arc_m, target_arc_m, int(k), config.look_at_m)
-        weight = _weights(clock.arc_m[near], clock.speed_mps[near], float(target_arc_m[k]), reach, config.look_at_share)
-        _turn(positions[near], targets[k], weight, config.max_pitch_rad, ahead[near], yaw[near], pitch[near])
-    return _limited(yaw, clock, config), _limited(pitch, clock, config)
+    angles = _wished(
+        (heading.spacing_m, heading.look),
+        (clock.arc_m, clock.speed_mps),
+        path,
+        (targets, target_arc_m),
+        (config.look_at_m, config.look_at_share, config.max_pitch_rad),
+    )
+    tick = float(clock.t_s[1] - clock.t_s[0])
+    rate = config.max_turn_rate_radps
+    window = max(int(np.ceil(2.0 * rate / config.max_turn_acceleration_radps2 / tick)), 1)
+    return _limited(angles[0], rate * tick, window), _limited(angles[1], rate * tick, window)
 
 
-def _near(
-    arc_m: NDArray[np.float64], target_arc_m: NDArray[np.float64], k: int, look_at_m: float
-) -> tuple[slice, tuple[float, float]]:
+@numba.njit(cache=True, nogil=True)
+def _wished(heading, ticks, path, keypoints, limits):
+    """Returns yaw and pitch (2, k) of the look as it is wished: ahead, turned towards the targets near keypoints."""
+    spacing, look = heading
+    arc_m, speed_mps = ticks
+    points, point_arc_m = path
+    targets, target_arc_m = keypoints
+    look_at, share, max_pitch = limits
+    ahead, out = np.empty(len(arc_m)), np.zeros((2, len(arc_m)))
+    for i in range(len(arc_m)):
+        ahead[i] = on_even_grid(arc_m[i], spacing, look)
+    out[0] = ahead
+    for k in range(len(targets)):
+        if not np.isfinite(targets[k]).all():
+            continue
+        begin, end, back, on = _near(arc_m, target_arc_m, k, look_at)
+        if end <= begin:
+            continue
+        eyes = interpolate(arc_m[begin:end], point_arc_m, points)
+        weight = _weights(arc_m[begin:end], speed_mps[begin:end], target_arc_m[k], (back, on), share)
+        _turn(eyes, targets[k], weight, max_pitch, ahead[begin:end], out[0, begin:end], out[1, begin:end])
+    return out
+
+
+@numba.njit(cache=True, nogil=True)
+def _near(arc_m, target_arc_m, k, look_at):
     """Returns the ticks at which keypoint `k` counts, and how far it reaches back and ahead: never over another."""
-    here = float(target_arc_m[k])
-    back = min(look_at_m, 0.5 * (here - float(target_arc_m[k - 1]))) if k > 0 else look_at_m
-    on = min(look_at_m, 0.5 * (float(target_arc_m[k + 1]) - here)) if k + 1 < len(target_arc_m) else look_at_m
+    here = target_arc_m[k]
+    back = min(look_at, 0.5 * (here - target_arc_m[k - 1])) if k > 0 else look_at
+    on = min(look_at, 0.5 * (target_arc_m[k + 1] - here)) if k + 1 < len(target_arc_m) else look_at
     back, on = max(back, 1e-6), max(on, 1e-6)
-    begin = int(arc_m.searchsorted(here - back, side="right"))
-    return slice(begin, int(arc_m.searchsorted(here + on, side="right"))), (back, on)
+    begin = np.searchsorted(arc_m, here - back, side="right")
+    return begin, np.searchsorted(arc_m, here + on, side="right"), back, on
 
 
 @numba.njit(cache=True, nogil=True)
@@ -113,29 +141,24 @@ def _bearings(positions, target):
     return bearing, last >= 0
 
 
-def _limited(angle: NDArray[np.float64], clock: Clock, config: TimingConfig) -> NDArray[np.float64]:
+@numba.njit(cache=True, nogil=True)
+def _limited(angle, step, window):
     """Returns the angle that is nearest to the given one in its largest difference and within the turn limits.
 
-    Of all functions with a rate of at most ω, the mean of the highest that lies below and the lowest that lies above
-    is the nearest in the largest difference. A moving average then limits the change of the rate.
+    Of all functions with a change of at most `step` a tick, the mean of the highest that lies below and the lowest that
+    lies above is the nearest in the largest difference. An average over `window` ticks then limits the rate's change.
     """
-    tick = float(clock.t_s[1] - clock.t_s[0])
-    step = config.max_turn_rate_radps * tick
+    if (angle == 0.0).all():
+        return angle.copy()
     low, high = angle.copy(), angle.copy()
-    _envelopes(low, high, step)
-    window = max(int(np.ceil(2.0 * config.max_turn_rate_radps / config.max_turn_acceleration_radps2 / tick)), 1)
-    return np.asarray(uniform_filter1d(0.5 * (low + high), window, mode="nearest"))
-
-
-@numba.njit(cache=True, nogil=True)
-def _envelopes(low: NDArray[np.float64], high: NDArray[np.float64], step: float) -> None:
-    """Lowers `low` and raises `high` until neither changes by more than `step` between neighbours."""
     for i in range(1, len(low)):
         low[i] = min(low[i], low[i - 1] + step)
         high[i] = max(high[i], high[i - 1] - step)
     for i in range(len(low) - 2, -1, -1):
         low[i] = min(low[i], low[i + 1] + step)
         high[i] = max(high[i], high[i + 1] - step)
+    half = (window - 1) // 2
+    return box(0.5 * (low + high), half, 0.5 * (window - 1 - 2 * half))
 
 
 @numba.njit(cache=True, nogil=True)

@@ -50,8 +50,7 @@ def time_path(
     heading = heading_of(points, arc, config.lookahead_m, config.look_smoothing_m)
     stays = dwell > 0.0
     clock = clock_of(heading, keypoint_m[stays], dwell[stays], config)
-    eyes = interpolate(clock.arc_m, arc, points)
-    look = look_angles(heading, clock, eyes, targets, keypoint_m, config)
+    look = look_angles(heading, clock, (points, arc), targets, keypoint_m, config)
     samples = _samples(clock.t_s, clock.arc_m, arc, config.sample_s)
     return _trajectory(points, arc, clock, look, samples)
 
