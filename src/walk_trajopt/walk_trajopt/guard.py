@@ -9,11 +9,12 @@ import dataclasses
 import numpy as np
 
 from walk_building.building import Building
+from walk_trajopt.bending import FIRM
 from walk_trajopt.check import PathCheck
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.pieces import Pieces
 from walk_trajopt.repair import Mended, colliding, planned_way_is_free, repair
-from walk_trajopt.state import FIRM, State, drawn
+from walk_trajopt.state import State, drawn
 
 Stretches = list[tuple[float, float]]
 

@@ -16,6 +16,7 @@ from walk_trajopt.smoothing import box
 
 _ARM_M = 0.5  # a target nearer than this is not turned to
 _STANDING_TICKS = 20  # a rest shorter than this is walking
+_EVERY = 4  # ticks from one look at a target to the next, 0.04 s
 
 
 def look_angles(
@@ -65,12 +66,28 @@ def _wished(heading, ticks, path, keypoints, limits):
         if not np.isfinite(targets[k]).all():
             continue
         begin, end, back, on = _near(arc_m, target_arc_m, k, look_at)
-        if end <= begin:
+        if end - begin < 2:
             continue
-        eyes = interpolate(arc_m[begin:end], point_arc_m, points)
-        weight = _weights(arc_m[begin:end], speed_mps[begin:end], target_arc_m[k], (back, on), share)
-        _turn(eyes, targets[k], weight, max_pitch, ahead[begin:end], out[0, begin:end], out[1, begin:end])
+        # What a target asks for changes slowly: every few ticks is often enough.
+        marks = np.append(np.arange(begin, end - 1, _EVERY), end - 1)
+        eyes = interpolate(arc_m[marks], point_arc_m, points)
+        standing = _standing_ticks(arc_m[begin:end], speed_mps[begin:end], target_arc_m[k]) > _STANDING_TICKS
+        weight = _weights(arc_m[marks], target_arc_m[k], (back, on), share, standing)
+        _spread_turn(_turns(eyes, targets[k], weight, max_pitch, ahead[marks]), marks, out)
     return out
+
+
+@numba.njit(cache=True, nogil=True)
+def _spread_turn(turns, marks, out):
+    """Adds turns (2, m) at some ticks to yaw and pitch (2, k), linear between these."""
+    for m in range(len(marks) - 1):
+        a, b = marks[m], marks[m + 1]
+        for i in range(a, b):
+            share = (i - a) / (b - a)
+            for c in range(2):
+                out[c, i] += turns[c, m] + share * (turns[c, m + 1] - turns[c, m])
+    for c in range(2):
+        out[c, marks[-1]] += turns[c, -1]
 
 
 @numba.njit(cache=True, nogil=True)
@@ -85,35 +102,42 @@ def _near(arc_m, target_arc_m, k, look_at):
 
 
 @numba.njit(cache=True, nogil=True)
-def _weights(arc_m, speed_mps, here_m, reach_m, share):
-    """Returns how much a keypoint counts at each tick (k,), 0 to 1: 1 only where the walker stands there."""
+def _standing_ticks(arc_m, speed_mps, here_m):
     standing = 0
     for i in range(len(arc_m)):
         if abs(arc_m[i] - here_m) < 1e-3 and speed_mps[i] < 1e-3:
             standing += 1
+    return standing
+
+
+@numba.njit(cache=True, nogil=True)
+def _weights(arc_m, here_m, reach_m, share, standing):
+    """Returns how much a keypoint counts at each arc length (k,), 0 to 1: 1 only where the walker stands there."""
     weight = np.empty(len(arc_m))
     for i in range(len(arc_m)):
         off = arc_m[i] - here_m
         part = off / (reach_m[0] if off < 0.0 else reach_m[1])
-        here = standing > _STANDING_TICKS and abs(off) < 0.01
+        here = standing and abs(off) < 0.01
         weight[i] = (1.0 if here else share) * 0.5 * (1.0 + np.cos(np.pi * min(max(part, -1.0), 1.0)))
     return weight
 
 
 @numba.njit(cache=True, nogil=True)
-def _turn(positions, target, weight, max_pitch, ahead, yaw, pitch):
-    """Turns yaw and pitch (k,) from `ahead` towards a target, as far as the weights (k,) say."""
+def _turns(positions, target, weight, max_pitch, ahead):
+    """Returns how far yaw and pitch (2, k) turn from `ahead` (k,) towards a target, as the weights (k,) say."""
+    out = np.zeros((2, len(weight)))
     bearing, known = _bearings(positions, target)
     if not known:
-        return
+        return out
     # The side on which to turn is chosen once, where the target counts most.
     middle = np.argmax(weight)
     side = 2.0 * np.pi * np.rint((ahead[middle] - bearing[middle]) / (2.0 * np.pi))
     for i in range(len(weight)):
         x, y, z = target[0] - positions[i, 0], target[1] - positions[i, 1], target[2] - positions[i, 2]
         rise = np.arctan2(z, max(np.sqrt(x * x + y * y), _ARM_M))
-        yaw[i] += weight[i] * (bearing[i] + side - ahead[i])
-        pitch[i] += weight[i] * min(max(rise, -max_pitch), max_pitch)
+        out[0, i] = weight[i] * (bearing[i] + side - ahead[i])
+        out[1, i] = weight[i] * min(max(rise, -max_pitch), max_pitch)
+    return out
 
 
 @numba.njit(cache=True, nogil=True)

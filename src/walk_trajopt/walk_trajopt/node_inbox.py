@@ -37,6 +37,7 @@ class Plan:
     ids: tuple[int, ...]
     marks: KeypointMarks
     polyline: NDArray[np.float64]
+    chosen: NDArray[np.float64]  # (M, 3) points to look at, nan rows for none
 
     @property
     def revision(self) -> Revision:
@@ -57,9 +58,8 @@ class Plan:
             keypoints: (M, 3) where they are now [m].
             timing: What holds where no mark says anything else.
         """
-        chosen = np.array([self.marks.look_at.get(i, NOWHERE) for i in self.ids])
-        targets = look_targets(keypoints, self.keypoints.quat_xyzw, chosen)
-        dwell_s = [self.marks.dwell_s.get(i, timing.dwell_s) for i in self.ids]
+        targets = look_targets(keypoints, self.keypoints.quat_xyzw, self.chosen)
+        dwell_s = [self.marks.dwell_s.get(i, timing.dwell_s) for i in self.ids] if self.marks.dwell_s else None
         return time_path(path, timing, look_at=targets, dwell_s=dwell_s)
 
 
@@ -76,9 +76,11 @@ class Inbox:
         self._markers: LabelledKeypoints | None = None
         self._tour: TimedPath | None = None
         self._plan: Plan | None = None
+        self._is_new = False
 
     def store(self, topic: str, msg: Any) -> None:
         """Takes in a message of `keypoints`, `keypoint_markers` or `tour`."""
+        self._is_new = True
         if topic == "keypoints":
             self._keypoints = keypoints_from_msg(msg)
         elif topic == "tour":
@@ -90,6 +92,9 @@ class Inbox:
 
     def plan(self) -> Plan | None:
         """Returns what the sequencer last said in full: the newest revision of which all three messages are here."""
+        if not self._is_new:
+            return self._plan
+        self._is_new = False
         keypoints, markers, tour = self._keypoints, self._markers, self._tour
         if (
             keypoints is not None
@@ -104,5 +109,6 @@ class Inbox:
                 ids=markers.ids,
                 marks=self.marks,
                 polyline=tour.positions,
+                chosen=np.array([self.marks.look_at.get(i, NOWHERE) for i in markers.ids]).reshape(-1, 3),
             )
         return self._plan

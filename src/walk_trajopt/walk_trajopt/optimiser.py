@@ -25,7 +25,7 @@ from walk_trajopt.state import Legs, State, bent, initial_state
 
 _ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
 _MOSTLY_NEW = 0.5  # share of new legs above which solving all of them finds a better path in the same time
-_HASTY_ITERATIONS = 10  # of a drag: the next one goes on from there, and the release takes its time
+_HASTY_ITERATIONS, _HASTY_TOLERANCE = 10, 1e-3  # of a drag: the next one goes on from there, a release takes its time
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +81,9 @@ class Optimiser:
         """
         self.config = config or TrajoptConfig()
         self._hasty = dataclasses.replace(
-            self.config, max_iterations=min(self.config.max_iterations, _HASTY_ITERATIONS)
+            self.config,
+            max_iterations=min(self.config.max_iterations, _HASTY_ITERATIONS),
+            tolerance=max(self.config.tolerance, _HASTY_TOLERANCE),
         )
         self._building = building
         self.router = router

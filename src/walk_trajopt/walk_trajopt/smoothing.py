@@ -28,13 +28,13 @@ def gaussian(values, sigma):
 @numba.njit(cache=True, nogil=True)
 def box(values, half, rim):
     """Returns the mean (n,) over `half` neighbours on both sides, the next ones beyond counting `rim` as much."""
-    last = len(values) - 1
-    out = np.empty(len(values))
-    total = values[0] * (half + 1)
-    for k in range(1, half + 1):
-        total += values[min(k, last)]
-    for i in range(len(values)):
-        above, below = values[min(i + half + 1, last)], values[max(i - half - 1, 0)]
-        out[i] = (total + rim * (above + below)) / (2 * half + 1 + 2.0 * rim)
-        total += above - values[max(i - half, 0)]
+    width, n = 2 * half + 1, len(values)
+    # With the ends drawn out there is nothing to ask at each value; the rims are at `i` and at `i + width + 1`.
+    padded, out = np.empty(n + width + 1), np.empty(n)
+    padded[: half + 1], padded[half + 1 : half + 1 + n], padded[half + 1 + n :] = values[0], values, values[-1]
+    total, scale = padded[1 : width + 1].sum(), 1.0 / (width + 2.0 * rim)
+    for i in range(n):
+        above = padded[i + width + 1]
+        out[i] = (total + rim * (padded[i] + above)) * scale
+        total += above - padded[i + 1]
     return out

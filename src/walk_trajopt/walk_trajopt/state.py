@@ -9,20 +9,15 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_trajopt.bending import NO_LENGTH_M, bent_arcs, bent_leg, bent_points
 from walk_trajopt.curve import refine
-from walk_trajopt.polyline import Polyline, interpolate
+from walk_trajopt.polyline import Polyline
 from walk_trajopt.repair import Mended, Way
 from walk_trajopt.resample import resample
 
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
-_UNEVEN = 1.5  # a leg whose points are so much farther apart, or nearer, than the mean gets another number of them
 Legs = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]
 """Newly planned legs to and from a keypoint, (L, 3) each; None for one that is bent instead."""
-
-FIRM = 10.0
-"""How many times as much the clearance counts where the path collided without."""
-
-_VERTEX_M = 0.25  # between the vertices of a bent leg, so that each can find its own floor
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -139,26 +134,26 @@ def bent(
     optimised points, from where the optimiser then goes on.
     """
     first, last = state.window(keypoint)
-    low, here, high = state.arc_m[first], state.keypoint_m[keypoint], state.arc_m[last]
+    window = float(state.arc_m[first]), float(state.keypoint_m[keypoint]), float(state.arc_m[last])
     shift = position - state.keypoints[keypoint]
-    tour = _bent_tour(state, (low, here, high), shift, legs)
-    inner = (tour.arc_m >= low) & (tour.arc_m <= high)
-    arc = _arcs(Polyline(tour.points[inner], tour.arc_m[inner]), here, state.arc_m[first : last + 1], spacing_m)
-    replanned = any(leg is not None for leg in legs)
-    if replanned:
-        x, firmness = tour.at(arc), np.ones(len(arc))
-        x[[0, -1]] = np.where(np.array([[low < here], [high > here]]), state.x[[first, last]], position)
+    tour = _bent_tour(state, window, shift, legs)
+    old = slice(first, last + 1)
+    arc = bent_arcs(tour.points, tour.arc_m, state.arc_m[old], window[1], spacing_m)
+    start = tour.at(arc)
+    if any(leg is not None for leg in legs):
+        x, firmness = start.copy(), np.ones(len(arc))
+        has_side = np.array([[window[0] < window[1]], [window[2] > window[1]]])
+        x[[0, -1]] = np.where(has_side, state.x[[first, last]], position)
     else:
-        firmness = np.where(np.interp(arc, state.arc_m, state.firmness) > 1.0, FIRM, 1.0)
-        x = interpolate(arc, state.arc_m, state.x) + _hat(arc, low, here, high)[:, None] * shift
-    added = len(arc) - (last + 1 - first)
-    index = state.keypoint_index + np.where(np.arange(len(state.keypoints)) > keypoint, added, 0)
-    index[keypoint] = first + int(np.abs(arc - here).argmin())
+        x, firmness = bent_points(state.x[old], state.firmness[old], state.arc_m[old], arc, window, shift)
+    index = state.keypoint_index.copy()
+    index[keypoint + 1 :] += len(arc) - (last + 1 - first)
+    index[keypoint] = first + int(np.abs(arc - window[1]).argmin())
     keypoints, radii = state.keypoints.copy(), state.radius_m.copy()
     keypoints[keypoint], radii[keypoint] = position, radius_m
 
-    def spliced(old: NDArray[np.float64], new: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.concatenate([old[:first], new, old[last + 1 :]])
+    def spliced(all_old: NDArray[np.float64], new: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.concatenate([all_old[:first], new, all_old[last + 1 :]])
 
     return dataclasses.replace(
         state,
@@ -166,56 +161,27 @@ def bent(
         keypoints=keypoints,
         radius_m=radii,
         keypoint_index=index,
-        start=spliced(state.start, tour.at(arc)),
+        start=spliced(state.start, start),
         arc_m=spliced(state.arc_m, arc),
         x=spliced(state.x, x),
         firmness=spliced(state.firmness, firmness),
     )
 
 
-def _hat(arc: NDArray[np.float64], low: float, here: float, high: float) -> NDArray[np.float64]:
-    """Returns 1 at `here`, falling to 0 at `low` and `high`; 1 on a side that has no length."""
-    rise = (arc - low) / (here - low) if here > low else np.ones(len(arc))
-    fall = (high - arc) / (high - here) if high > here else np.ones(len(arc))
-    return np.asarray(np.clip(np.where(arc <= here, rise, fall), 0.0, 1.0))
-
-
-def _bent_tour(
-    state: State,
-    window: tuple[float, float, float],
-    shift: NDArray[np.float64],
-    legs: Legs,
-) -> Polyline:
+def _bent_tour(state: State, window: tuple[float, float, float], shift: NDArray[np.float64], legs: Legs) -> Polyline:
     low, here, high = window
     tour = state.tour
-    pieces = [(tour.arc_m[tour.arc_m < low], tour.points[tour.arc_m < low])]
+    before, after = tour.arc_m.searchsorted(low), tour.arc_m.searchsorted(high, side="right")
+    pieces = [(tour.arc_m[:before], tour.points[:before])]
     for leg, (a, b) in zip(legs, ((low, here), (here, high)), strict=True):
-        if b - a < 1e-9:
+        if b - a < NO_LENGTH_M:
             continue
-        if leg is not None:
+        if leg is None:
+            pieces.append(bent_leg(tour.points, tour.arc_m, a, b, window, shift))
+        else:
             line = Polyline(leg)
             pieces.append((a + (b - a) * line.arc_m / max(line.length_m, 1e-9), line.points))
-            continue
-        own = tour.arc_m[(tour.arc_m > a) & (tour.arc_m < b)]
-        arc = np.unique(np.concatenate([np.linspace(a, b, int(np.ceil((b - a) / _VERTEX_M)) + 1), own]))
-        pieces.append((arc, tour.at(arc) + _hat(arc, low, here, high)[:, None] * shift))
-    pieces.append((tour.arc_m[tour.arc_m > high], tour.points[tour.arc_m > high]))
+    pieces.append((tour.arc_m[after:], tour.points[after:]))
     arc = np.concatenate([p[0] for p in pieces])
     rising = np.concatenate([[True], np.diff(arc) > 1e-9])
     return Polyline(np.concatenate([p[1] for p in pieces])[rising], arc[rising])
-
-
-def _arcs(piece: Polyline, here: float, old: NDArray[np.float64], spacing_m: float) -> NDArray[np.float64]:
-    """Returns the parameters of the window's points: the old ones, unless a leg has become much longer or shorter."""
-    sides = []
-    for a, b in ((old[0], here), (here, old[-1])):
-        if b - a < 1e-9:
-            continue
-        own = old[(old >= a - 1e-9) & (old <= b + 1e-9)]
-        arc = np.unique(np.concatenate([[a, b], piece.arc_m[(piece.arc_m > a) & (piece.arc_m < b)]]))
-        length = float(np.linalg.norm(np.diff(piece.at(arc), axis=0), axis=1).sum())
-        spacing = length / (len(own) - 1)
-        if not spacing_m / _UNEVEN <= spacing <= spacing_m * _UNEVEN:
-            own = np.linspace(a, b, max(round(length / spacing_m), 1) + 1)
-        sides.append(own)
-    return sides[0] if len(sides) == 1 else np.concatenate([sides[0], sides[1][1:]])

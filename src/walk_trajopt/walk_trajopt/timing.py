@@ -12,13 +12,14 @@ from walk_building.errors import ParameterError
 from walk_trajopt.clock import Clock, clock_of
 from walk_trajopt.config import TimingConfig
 from walk_trajopt.curve import slopes, tangents
-from walk_trajopt.heading import heading_of
+from walk_trajopt.heading import heading_of, on_even_grid
 from walk_trajopt.look import look_angles, quaternion_xyzw
 from walk_trajopt.path import OptimisedPath, read_only
 from walk_trajopt.polyline import arc_lengths, interpolate
 from walk_trajopt.trajectory import Trajectory
 
 _SAME_M = 1e-6  # points nearer than this are one
+_STILL_MPS = 1e-3  # slower than this is standing
 _APART_S = 1e-3  # samples nearer than this to a point of the path are left out
 
 
@@ -126,8 +127,8 @@ def _trajectory(
     samples: tuple[NDArray[np.float64], NDArray[np.float64]],
 ) -> Trajectory:
     t_s, at_m = samples
-    ticks = np.column_stack([clock.speed_mps, clock.acceleration_mps2, *look])
-    rows = _rows(points, arc_m, tangents(points, arc_m), clock.t_s[1], ticks, t_s, at_m)
+    moving = clock.speed_mps, clock.acceleration_mps2
+    rows = _rows(points, arc_m, tangents(points, arc_m), float(clock.t_s[1]), moving, look, t_s, at_m)
     positions, velocities, accelerations, quat_xyzw, stop = rows
     return Trajectory(
         t_s=read_only(t_s),
@@ -140,7 +141,7 @@ def _trajectory(
 
 
 @numba.njit(cache=True, nogil=True)
-def _rows(points, arc_m, tangent, tick_s, ticks, t_s, at_m):
+def _rows(points, arc_m, tangent, tick_s, moving, look, t_s, at_m):
     """Returns positions, velocities, accelerations (m, 3), quaternions (m, 4) and stops (m,).
 
     Args:
@@ -148,25 +149,28 @@ def _rows(points, arc_m, tangent, tick_s, ticks, t_s, at_m):
         arc_m: (n,) of each, rising.
         tangent: (n, 3) direction at each.
         tick_s: Time between ticks.
-        ticks: (k, 4) speed, acceleration, yaw, pitch at each tick.
+        moving: (k,), (k,) speed and acceleration at each tick.
+        look: (k,), (k,) yaw and pitch at each tick.
         t_s: (m,) rising.
         at_m: (m,) arc length at each time, rising.
     """
     positions, direction = interpolate(at_m, arc_m, points), interpolate(at_m, arc_m, tangent)
-    now = interpolate(t_s, tick_s * np.arange(len(ticks)), ticks)
-    quat = np.empty((len(t_s), 4))
+    quat, stop = np.empty((len(t_s), 4)), np.empty(len(t_s), np.bool_)
     for i in range(len(t_s)):
         x, y, z = direction[i]
-        direction[i] /= max(np.sqrt(x * x + y * y + z * z), 1e-9)
-        quat[i] = quaternion_xyzw(now[i, 2], now[i, 3])
+        scale = 1.0 / max(np.sqrt(x * x + y * y + z * z), 1e-9)
+        direction[i, 0], direction[i, 1], direction[i, 2] = scale * x, scale * y, scale * z
+        quat[i] = quaternion_xyzw(on_even_grid(t_s[i], tick_s, look[0]), on_even_grid(t_s[i], tick_s, look[1]))
     turning = slopes(t_s, direction)
     velocities, accelerations = np.empty_like(direction), np.empty_like(direction)
     for i in range(len(t_s)):
+        speed, gain = on_even_grid(t_s[i], tick_s, moving[0]), on_even_grid(t_s[i], tick_s, moving[1])
+        stop[i] = speed < _STILL_MPS
         for c in range(3):
             # Along the path the clock knows the acceleration; across it, the direction's change does.
-            accelerations[i, c] = turning[i, c] * now[i, 0] + now[i, 1] * direction[i, c]
-            velocities[i, c] = now[i, 0] * direction[i, c]
-    return positions, velocities, accelerations, quat, now[:, 0] < 1e-3
+            accelerations[i, c] = turning[i, c] * speed + gain * direction[i, c]
+            velocities[i, c] = speed * direction[i, c]
+    return positions, velocities, accelerations, quat, stop
 
 
 def _locked(flags: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -46,16 +46,18 @@ def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: Trajo
             fixed=problem.fixed,
         )
         step, promised = newton_step(model)
+        enough = config.tolerance * abs(here.value)
+        # Where the model itself sees nothing left to gain, no other damping finds anything either.
+        if promised <= enough:
+            break
         there = problem.linearise(x + step)
         gain = here.value - there.value
         damping *= _response(gain, promised)
         damping = max(damping, _LEAST_DAMPING)
         if gain > 0.0:
             x, here = x + step, there
-        enough = config.tolerance * abs(here.value)
         small = small + 1 if gain <= enough else 0
-        # Where the model itself sees nothing left to gain, no other damping finds anything either.
-        if max(gain, promised) <= enough or small >= _SMALL_ENDS:
+        if small >= _SMALL_ENDS:
             break
     return Solution(x=x, cost=here.value, iterations=iterations, evaluations=iterations + 1, local=here)
 
