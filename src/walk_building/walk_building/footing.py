@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from walk_building.building import Building
+from walk_building.geometry import as_points
 
 
 def eye_over_floor(building: Building, point: ArrayLike) -> NDArray[np.float64]:
@@ -16,8 +17,8 @@ def eye_over_floor(building: Building, point: ArrayLike) -> NDArray[np.float64]:
     A hand lifts a keypoint off its height or lowers it; what it means is the place on the floor. Where nothing
     lies below within the height of a storey, the point is returned as it is.
     """
-    eye = np.array(point, dtype=np.float64)
-    drop = float(building.geometry.height_above_floor(eye[None])[0])
+    eye = as_points("point", np.array(point, dtype=np.float64)[None])[0]
+    drop = building.geometry.drop_below(*eye.tolist())
     if drop <= 2 * building.walker.eye_height_m:
         eye[2] += building.walker.eye_height_m - drop
     eye.setflags(write=False)

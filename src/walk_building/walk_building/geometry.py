@@ -95,6 +95,10 @@ class Geometry:
         down = np.broadcast_to(np.array([0.0, 0.0, -1.0]), query.shape)
         return self.raycast(query, down).distance_m
 
+    def drop_below(self, x: float, y: float, z: float) -> float:
+        """Returns what `height_above_floor` does for one point, without its price for many."""
+        return float(first_hit(self.bvh, x, y, z, 0.0, 0.0, -1.0, np.inf)[0])
+
 
 def as_points(name: str, points: ArrayLike) -> NDArray[np.float64]:
     """Returns `points` as a contiguous finite (N, 3) float64 array.

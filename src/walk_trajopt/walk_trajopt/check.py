@@ -16,6 +16,7 @@ from walk_building.walker import Walker
 # Added to what counts as touching: it bounds the number of steps along a wall that is just not touched. Far above the
 # rounding of the exact distances, it keeps this sweep the stricter of the two wherever the library's differ from them.
 _MARGIN_M = 1e-4
+_ROUNDING_M = 1e-9
 _AHEAD_M = 0.4  # how far ahead is looked at least: fewer questions, each a little longer
 
 
@@ -48,6 +49,7 @@ def _sweep(bvh, eyes, low, high, contact, free):
     segments as that reaches.
     """
     anchor, reach = eyes[0], -1.0
+    at_x, at_y, at_z, known = 0.0, 0.0, 0.0, np.inf  # where was asked last, and how far everything is from there
     for i in range(len(free)):
         free[i] = True
         if max(_apart(anchor, eyes[i]), _apart(anchor, eyes[i + 1])) <= reach:
@@ -58,7 +60,11 @@ def _sweep(bvh, eyes, low, high, contact, free):
         while True:
             share = at / length if length > 0.0 else 0.0
             x, y, z = eyes[i, 0] + share * move[0], eyes[i, 1] + share * move[1], eyes[i, 2] + share * move[2]
-            square = axis_distance_sq(bvh, x, y, z + low, z + high, limit)
+            # A distance changes by no more than the axis moves: farther there is nothing to look for.
+            moved = np.sqrt((x - at_x) ** 2 + (y - at_y) ** 2 + (z - at_z) ** 2)
+            most = min(limit[1], (known + moved + _ROUNDING_M) ** 2)
+            square = axis_distance_sq(bvh, x, y, z + low, z + high, (limit[0], most))
+            at_x, at_y, at_z, known = x, y, z, np.sqrt(square) if square < limit[1] else np.inf
             if square <= limit[0]:
                 free[i] = False
                 break

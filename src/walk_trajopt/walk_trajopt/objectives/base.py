@@ -137,21 +137,26 @@ def banded_product(bands: Points, x: Points) -> Points:
     return out
 
 
-def difference_terms(x: NDArray[np.float64], order: int) -> NDArray[np.float64]:
-    """Returns the squared length (n,) of each difference of that order, at the first of its points."""
+@numba.njit(cache=True, nogil=True)
+def difference_terms(x: Points, order: int, scale: float) -> Points:
+    """Returns `scale` times the squared length (n,) of each first or second difference, at the first of its points."""
     out = np.zeros(len(x))
-    difference = np.diff(x, order, axis=0)
-    out[: len(difference)] = np.einsum("ij,ij->i", difference, difference)
+    for i in range(len(x) - order):
+        for c in range(x.shape[1]):
+            step = x[i + 1, c] - x[i, c]
+            if order == 2:
+                step = x[i + 2, c] - x[i + 1, c] - step
+            out[i] += scale * step * step
     return out
 
 
 @functools.lru_cache(maxsize=256)
-def difference_bands(n: int, stencil: tuple[float, ...]) -> NDArray[np.float64]:
-    """Returns the lower bands (3, n), read-only, of SᵀS; S applies the stencil (2 or 3 numbers) to neighbours."""
+def difference_bands(n: int, stencil: tuple[float, ...], scale: float) -> NDArray[np.float64]:
+    """Returns the lower bands (3, n), read-only, of scale SᵀS; S applies the stencil (2 or 3 numbers) to neighbours."""
     bands = np.zeros((3, n))
     rows = max(n - len(stencil) + 1, 0)
     for i, a in enumerate(stencil):
         for j in range(i + 1):
-            bands[i - j, j : j + rows] += a * stencil[j]
+            bands[i - j, j : j + rows] += scale * a * stencil[j]
     bands.setflags(write=False)
     return bands

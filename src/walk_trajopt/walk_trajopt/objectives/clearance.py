@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_building.walker import Walker
 from walk_trajopt.objectives.base import Objective, Points, PointwiseObjective, Setting
 from walk_trajopt.objectives.clearance_kernels import write_clearance
 
@@ -24,24 +27,14 @@ class Clearance(PointwiseObjective):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
-        walker, wish = setting.walker, setting.clearance_m
-        if setting.clearance_of == "eye":
-            above = np.array([walker.eye_height_m])
-        else:
-            count = int(np.ceil((walker.axis_high_m - walker.axis_low_m) / _AXIS_STEP_M)) + 1
-            above = np.linspace(walker.axis_low_m, walker.axis_high_m, count)
-        self._below_eye = above - walker.eye_height_m  # (K,)
-        floor = above * np.cos(np.radians(walker.max_slope_deg))
-        self._wish = np.full(len(above), wish) if setting.clearance_of == "eye" else np.minimum(wish, floor)
-        self.pieces = 2 * len(above) + 1
-        self._far = np.full((len(setting.start), 4), -np.inf)
-        self._known = np.full((len(setting.start), 2 * len(above), 8), np.inf)
-        self._known[:, :, 3] = -np.inf
+        self._below_eye, self._wish = _heights(setting.walker, setting.clearance_m, setting.clearance_of)
+        self.pieces = 2 * len(self._below_eye) + 1
+        self._memory: tuple[Points, Points] | None = None
 
     def learn_from(self, other: Objective) -> None:
         """Takes over what is known about places: it holds whichever points asked for it, and helps those near by."""
-        if isinstance(other, Clearance) and other._known.shape == self._known.shape:
-            self._far, self._known = other._far, other._known
+        if isinstance(other, Clearance) and other.pieces == self.pieces and other._memory is not None:
+            self._memory = other._memory if len(other._memory[0]) == len(self.setting.start) else None
 
     def residuals(self, x: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Returns the shortfalls max(D − d, 0) (n,) and their gradients (n, 3), unit vectors towards the geometry."""
@@ -62,6 +55,19 @@ class Clearance(PointwiseObjective):
 
     def write_pieces(self, x: Points, values: Points, slopes: Points, bends: Points) -> None:
         """Writes 0 and the shortfalls towards the nearest and the next wall, seen from each height."""
+        if self._memory is None:
+            self._memory = np.full((len(x), 4), -np.inf), np.full((len(x), self.pieces - 1, 8), np.inf)
+            self._memory[1][:, :, 3] = -np.inf
         bvh = self.setting.geometry.bvh
-        write_clearance(bvh, x, self._below_eye, self._wish, self._far, self._known, values, slopes)
+        write_clearance(bvh, x, self._below_eye, self._wish, *self._memory, values, slopes)
         bends[:] = 0.0
+
+
+@functools.lru_cache(maxsize=8)
+def _heights(walker: Walker, wish_m: float, of: str) -> tuple[Points, Points]:
+    """Returns the heights (K,) of the looked-at points of the axis relative to the eye, and the wish (K,) at each."""
+    if of == "eye":
+        return np.zeros(1), np.full(1, wish_m)
+    count = int(np.ceil((walker.axis_high_m - walker.axis_low_m) / _AXIS_STEP_M)) + 1
+    above = np.linspace(walker.axis_low_m, walker.axis_high_m, count)
+    return above - walker.eye_height_m, np.minimum(wish_m, above * np.cos(np.radians(walker.max_slope_deg)))

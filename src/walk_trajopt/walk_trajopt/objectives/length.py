@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from walk_trajopt.objectives.base import Points, QuadraticObjective, Setting, difference_bands, difference_terms
 
 
@@ -12,8 +14,8 @@ class Length(QuadraticObjective):
 
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
-        self.bands = difference_bands(len(setting.start), (-1.0, 1.0)) / setting.spacing_m
+        self.bands = difference_bands(len(setting.start), (-1.0, 1.0), 1.0 / setting.spacing_m)
 
     def terms(self, x: Points) -> Points:
         """Returns the terms (n,) of the sum."""
-        return difference_terms(x, 1) / self.setting.spacing_m
+        return np.asarray(difference_terms(x, 1, 1.0 / self.setting.spacing_m))

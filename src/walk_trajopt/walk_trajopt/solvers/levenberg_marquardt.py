@@ -9,6 +9,7 @@ what it is (`newton.py`); the geometry is asked once for each step, and the step
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -27,7 +28,7 @@ _SMALL_ENDS = 8  # iterations in a row that lower the cost by less than the tole
 
 def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: TrajoptConfig) -> Solution:
     """Minimises by damped steps to the minimum of the model."""
-    base = _constant_bands(problem)
+    base = _constant_bands(problem.bands, problem.fixed)
     scale = max(float(np.median(base[0])), 1e-9)
     x, damping = x0, _FIRST_DAMPING
     here = problem.linearise(x)
@@ -70,14 +71,22 @@ def _response(gain: float, promised: float) -> float:
     return 0.1 if kept > 0.75 else 1.0 if kept > 0.25 else 4.0
 
 
-def _constant_bands(problem: Problem) -> NDArray[np.float64]:
-    """Returns the lower bands (7, 3 n) of the quadratic objectives' Hessian, fixed points cut loose with a 1."""
-    n = len(problem.fixed)
+@numba.njit(cache=True, nogil=True)
+def _constant_bands(own, fixed):
+    """Returns the lower bands (7, 3 n) of the quadratic objectives' Hessian, fixed points cut loose with a 1.
+
+    Args:
+        own: (3, n) lower bands of half of it, per coordinate.
+        fixed: (n,).
+    """
+    n = len(fixed)
     bands = np.zeros((7, 3 * n))
     for k in range(3):
-        row = 2.0 * problem.bands[k]
-        m = max(n - k, 0)
-        row[:m][problem.fixed[k:] | problem.fixed[:m]] = 0.0
-        bands[3 * k] = np.repeat(row, 3)
-    bands[0, np.repeat(problem.fixed, 3)] = 1.0
+        for i in range(n - k):
+            loose = fixed[i] or fixed[i + k]
+            for c in range(3):
+                bands[3 * k, 3 * i + c] = 0.0 if loose else 2.0 * own[k, i]
+    for i in range(n):
+        if fixed[i]:
+            bands[0, 3 * i : 3 * i + 3] = 1.0
     return bands
