@@ -80,7 +80,6 @@ class Inbox:
 
     def store(self, topic: str, msg: Any) -> None:
         """Takes in a message of `keypoints`, `keypoint_markers` or `tour`."""
-        self._is_new = True
         if topic == "keypoints":
             self._keypoints = keypoints_from_msg(msg)
         elif topic == "tour":
@@ -89,6 +88,8 @@ class Inbox:
             # Before the keypoints: a plan takes both once its three messages agree.
             self.marks = keypoint_marks_from_msg(msg)
             self._markers = keypoint_markers_from_msg(msg)
+        # Only now: another thread that looks in between would take the news for read.
+        self._is_new = True
 
     def plan(self) -> Plan | None:
         """Returns what the sequencer last said in full: the newest revision of which all three messages are here."""
