@@ -15,7 +15,8 @@ from walk_bag import BagError, BagWriter
 from walk_bag.errors import ExportError
 from walk_bag.exports import export_ride
 from walk_bag.exports.ride import Ride
-from walk_bag.imports import RecordedBuilding, load_ride, read_keypoints, recorded_building
+from walk_bag.imports import RecordedBuilding, load_ride, recorded_building
+from walk_bag.keypoint_files import read_keypoints
 from walk_bag.walkthrough import bag_topic
 from walk_ros import conversions as c
 from walk_ros.diagnostics import Diagnostics
@@ -84,6 +85,7 @@ def test_a_table_made_by_hand_is_read(tmp_path: Path) -> None:
     path.write_text("label, x, y, z, yaw_deg, remark\nhall, 1, 2, 1.6, 90, nice\n, 3, 4, 1.6, ,\n")
     found = read_keypoints(path)
     assert found.positions.tolist() == [[1, 2, 1.6], [3, 4, 1.6]] and found.labels == ("hall", "")
+    assert found.looks.tolist() == [True, False]
     np.testing.assert_allclose(Rotation.from_quat(found.quat_xyzw).apply([1, 0, 0]), [[0, 1, 0], [1, 0, 0]], atol=1e-12)
 
 
@@ -109,7 +111,7 @@ def test_a_bare_list_of_positions_is_read(tmp_path: Path) -> None:
         ("k.json", "[[1, 2, 1e999]]", "keypoint 1: position"),
         ("k.json", "[null]", "keypoint 1: position"),
         ("k.json", '[{"position": [1, 2, 3], "label": 4}]', "label is 4"),
-        ("k.txt", "x,y,z\n1,2,3", "from .csv and .json"),
+        ("k.txt", "x,y,z\n1,2,3", "from .csv and .json files and from bags"),
     ],
 )
 def test_a_bad_file_is_refused_in_a_sentence(tmp_path: Path, name: str, text: str, said: str) -> None:

@@ -82,7 +82,7 @@ def test_the_users_axis_goes_before_what_is_seen(
 def test_a_house_in_centimetres_without_a_unit_asks_for_it(tmp_path: Path) -> None:
     path = tmp_path / "house.stl"
     building((1000, 800, 600), 3, 3).export(path)
-    with pytest.raises(BuildingError, match=r"in centimetres 10 x 8 x 6 m: .*--units \(0\.01 for centimetres"):
+    with pytest.raises(BuildingError, match=r"in centimetres 10 x 8 x 6 m: .*--units \(mm, cm"):
         load_model(path)
     np.testing.assert_allclose(np.ptp(load_model(path, LoadOptions(units_m=0.01)).vertices, axis=0), (10, 8, 6), 1e-4)
     assert np.ptp(load_model(path, LoadOptions(units_m=1.0)).vertices[:, 2]) == pytest.approx(600)

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""What comes in: rides recorded in bags, and keypoints from tables and JSON."""
+"""What comes in from bags: rides, and the building that they lead through."""
 
 from __future__ import annotations
 
-import csv
 import dataclasses
 import json
 from pathlib import Path
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_bag.errors import BagError, ExportError
+from walk_bag.errors import BagError
 from walk_bag.exports.ride import Ride
 from walk_bag.storage import read_bag
 from walk_building.errors import WalkError
@@ -29,16 +28,6 @@ SOURCES = ("trajectory", "viewpoint")
 
 # Slower is standing.
 _STANDING_MPS = 0.02
-_UNIT_TOLERANCE = 1e-3
-
-
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class ImportedKeypoints:
-    """Keypoints of a file, in the coordinates of the building's file. Arrays are read-only."""
-
-    positions: NDArray[np.float64]  # (K, 3) of the eye [m]
-    quat_xyzw: NDArray[np.float64]  # (K, 4); level, along x, where the file does not say
-    labels: tuple[str, ...]  # (K,) "" where the file does not say
 
 
 def load_ride(bag: Path | str, source: str = "trajectory", namespace: str = "walk") -> Ride:
@@ -141,93 +130,3 @@ def recorded_building(bag: Path | str) -> RecordedBuilding:
         load=load,
         offset_m=offset if "offset_m" in told else None,
     )
-
-
-def read_keypoints(path: Path | str) -> ImportedKeypoints:
-    """Returns the keypoints of a CSV or JSON file: eye positions in metres, z up, in the building file's coordinates.
-
-    CSV: a header with `x,y,z` and, if wished, `qx,qy,qz,qw` or `yaw_deg`, and `label`; other columns are passed over.
-    JSON: a list, or `{"keypoints": [...]}`, of `[x, y, z]` or of objects with `position` and, if wished, `quat_xyzw`
-    or `yaw_deg`, and `label`.
-
-    Raises:
-        ExportError: There is no such file, or it says something else; the message says in which row.
-    """
-    path = Path(path)
-    readers = {".csv": _csv_rows, ".json": _json_rows}
-    if path.suffix.lower() not in readers:
-        raise ExportError(path, "keypoints are read from .csv and .json files")
-    try:
-        rows = readers[path.suffix.lower()](path, path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise ExportError(path, f"cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise ExportError(path, "is not text in UTF-8") from error
-    if not rows:
-        raise ExportError(path, "holds no keypoint")
-    checked = [_checked(path, number, row) for number, row in enumerate(rows, start=1)]
-    positions, quats = np.array([c[0] for c in checked]), np.array([c[1] for c in checked])
-    positions.setflags(write=False)
-    quats.setflags(write=False)
-    return ImportedKeypoints(positions=positions, quat_xyzw=quats, labels=tuple(c[2] for c in checked))
-
-
-def _csv_rows(path: Path, text: str) -> list[dict[str, Any]]:
-    table = csv.DictReader(text.splitlines(), skipinitialspace=True)
-    names = [name.strip() for name in table.fieldnames or ()]
-    missing = [name for name in "xyz" if name not in names]
-    if missing:
-        raise ExportError(path, f"has no column {missing[0]!r}; the first line names the columns: x,y,z")
-    table.fieldnames = names
-    rows = []
-    for row in table:
-        found: dict[str, Any] = {"position": [row[name] for name in "xyz"], "label": row.get("label") or ""}
-        if row.get("qx"):
-            found["quat_xyzw"] = [row.get(name) for name in ("qx", "qy", "qz", "qw")]
-        if row.get("yaw_deg"):
-            found["yaw_deg"] = row["yaw_deg"]
-        rows.append(found)
-    return rows
-
-
-def _json_rows(path: Path, text: str) -> list[dict[str, Any]]:
-    try:
-        document = json.loads(text)
-    except ValueError as error:
-        raise ExportError(path, f"is not JSON: {error}") from error
-    rows = document.get("keypoints") if isinstance(document, dict) else document
-    if not isinstance(rows, list):
-        raise ExportError(path, 'holds no list of keypoints; expected [[x, y, z], …] or {"keypoints": […]}')
-    return [row if isinstance(row, dict) else {"position": row} for row in rows]
-
-
-def _checked(path: Path, number: int, row: dict[str, Any]) -> tuple[list[float], list[float], str]:
-    """Returns position, orientation and label of a row."""
-    position = _numbers(path, number, "position", row.get("position"), 3)
-    if "quat_xyzw" in row:
-        quat = _numbers(path, number, "quat_xyzw", row["quat_xyzw"], 4)
-        length = float(np.linalg.norm(quat))
-        if abs(length - 1.0) > _UNIT_TOLERANCE:
-            raise ExportError(path, f"keypoint {number}: quat_xyzw has the length {length:.4g}; expected 1")
-        quat = [value / length for value in quat]
-    else:
-        (yaw_deg,) = _numbers(path, number, "yaw_deg", [row.get("yaw_deg", 0.0)], 1)
-        half = np.deg2rad(yaw_deg) / 2
-        quat = [0.0, 0.0, float(np.sin(half)), float(np.cos(half))]
-    label = row.get("label", "")
-    if not isinstance(label, str):
-        raise ExportError(path, f"keypoint {number}: label is {label!r}; expected a text")
-    return position, quat, label
-
-
-def _numbers(path: Path, number: int, name: str, values: Any, count: int) -> list[float]:
-    wrong = ExportError(path, f"keypoint {number}: {name} is {values!r}; expected {count} finite numbers")
-    if not isinstance(values, list) or len(values) != count or any(isinstance(v, bool) for v in values):
-        raise wrong
-    try:
-        numbers = [float(value) for value in values]
-    except (TypeError, ValueError):
-        raise wrong from None
-    if not np.isfinite(numbers).all():
-        raise wrong
-    return numbers

@@ -189,7 +189,7 @@ def _check_size(model: Model) -> None:
         model.source,
         f"too large to plan in at once: {size[0]:.0f} x {size[1]:.0f} x {size[2]:.0f} m with a unit of "
         f"{model.units_m:g} m, {level_m2:.0f} m² of surface seen from above; if the unit is another one, say so with "
-        "--units (0.01 for centimetres, 0.001 for millimetres, 0.0254 for inches), else leave parts out with --ignore",
+        "--units (mm, cm, in, ft, or its length in metres), else leave parts out with --ignore",
     )
 
 

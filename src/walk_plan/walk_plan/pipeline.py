@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 
+from walk_bag.keypoint_files import ImportedKeypoints
 from walk_building.building import Building
 from walk_building.pipeline import load_building
 from walk_building.progress import Progress, no_progress
@@ -17,6 +19,7 @@ from walk_plan.baselines import baselines, look_targets
 from walk_plan.clearance import SideClearance
 from walk_plan.compare.comparison import compare
 from walk_plan.errors import NoWalkError
+from walk_plan.given import given_suggestion, left_out
 from walk_plan.options import PlanConfig
 from walk_plan.output_folder import OutputFolder
 from walk_plan.outputs import COMPARISON_WRITERS, MARKER, write_comparison, write_outputs
@@ -41,6 +44,7 @@ def plan_walkthrough(
     progress: Progress = no_progress,
     *,
     comparison: bool = False,
+    given: ImportedKeypoints | None = None,
 ) -> Walkthrough:
     """Plans a walk through a building and writes all results to a folder.
 
@@ -50,13 +54,14 @@ def plan_walkthrough(
         options: Everything a user can tune.
         progress: Told of the stages in `stages.STAGES`.
         comparison: Whether to compare the walk with others too, and what it is without each objective.
+        given: The user's keypoints in place of those that the importance map suggests.
 
     Raises:
         WalkError: The building cannot be used, nothing in it can be walked, or the folder cannot be written.
     """
     with OutputFolder(out_dir, MARKER, tuple(COMPARISON_WRITERS)) as folder:
         clock = StageClock(progress)
-        walkthrough = make_walkthrough(building_path, options or PlanConfig(), clock)
+        walkthrough = make_walkthrough(building_path, options or PlanConfig(), clock, given)
         with clock.stage("write") as told:
             write_outputs(walkthrough, folder, told)
         if comparison:
@@ -65,7 +70,9 @@ def plan_walkthrough(
     return walkthrough
 
 
-def make_walkthrough(building_path: Path | str, config: PlanConfig, clock: StageClock) -> Walkthrough:
+def make_walkthrough(
+    building_path: Path | str, config: PlanConfig, clock: StageClock, given: ImportedKeypoints | None = None
+) -> Walkthrough:
     """Returns the planned walk with its figures; writes nothing.
 
     Raises:
@@ -76,7 +83,10 @@ def make_walkthrough(building_path: Path | str, config: PlanConfig, clock: Stage
     with clock.stage("importance") as told:
         importance_map = compute_importance(building, config.importance, told)
     with clock.stage("keypoints"):
-        suggestion = suggest_keypoints(building, importance_map, config.keypoints)
+        if given is None:
+            suggestion = suggest_keypoints(building, importance_map, config.keypoints)
+        else:
+            suggestion = given_suggestion(building, importance_map, given)
     with clock.stage("tour") as told:
         tour = plan_tour(building, suggestion.positions, config.tour, told)
         _check(building, tour)
@@ -85,7 +95,9 @@ def make_walkthrough(building_path: Path | str, config: PlanConfig, clock: Stage
     with clock.stage("timing"):
         trajectory = time_path(path, config.timing, look_targets(suggestion, tour.stands, tour.order))
     with clock.stage("metrics") as told:
-        return _assess(config, building, importance_map, suggestion, tour, path, trajectory, clock, told)
+        walkthrough = _assess(config, building, importance_map, suggestion, tour, path, trajectory, clock, told)
+    notes = left_out(given, tour) if given is not None else ()
+    return dataclasses.replace(walkthrough, warnings=(*building.warnings, *notes))
 
 
 def _check(building: Building, tour: Tour) -> None:

@@ -22,6 +22,7 @@ from walk_bag.exports import EXPORTERS, export_ride
 from walk_bag.exports.ride import ExportConfig, Ride
 from walk_bag.imports import SOURCES, load_ride, recorded_building
 from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.cli.units import UnitOfLength
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions
 from walk_building.progress import no_progress
@@ -51,7 +52,7 @@ def _with_config(command: click.Command) -> click.Command:
 @click.option("--to", "name", type=click.Choice(list(EXPORTERS)), required=True, help="The format, see below.")
 @click.option("--out", type=click.Path(path_type=Path), help="The file; default: beside the bag, named as it is.")
 @click.option("--building", type=click.Path(path_type=Path), help="The building's file; default: what the bag names.")
-@click.option("--units", type=float, default=0.0, help="Length of a unit of the building's file in metres.")
+@click.option("--units", type=UnitOfLength(), default=0.0, help="Unit of the building's file: cm, ft, … or metres.")
 @click.option("--up", type=click.Choice(["auto", "y", "z"]), default="auto", help="The axis that points up in it.")
 @click.option("--from", "source", type=click.Choice(SOURCES), default=SOURCES[0], show_default=True,
               help="What was planned last, or what was looked at while it was recorded.")  # fmt: skip

@@ -24,7 +24,11 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
+from walk_bag.camera_path import camera_keypoints
+from walk_bag.keypoint_files import ImportedKeypoints, read_keypoints
 from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.bootstrap.errors import SetupError
+from walk_bringup.cli.units import UNITS_M, UnitOfLength
 from walk_building.progress import no_progress
 from walk_plan.options import PlanOption, plan_config, plan_options
 from walk_plan.pipeline import plan_walkthrough
@@ -56,11 +60,14 @@ class PlanClickOption(click.Option):
         kind: Any = type(option.field.default)
         if kind is bool:
             names = [f"--{option.name}/--no-{option.name}"]
+        elif option.field.name == "units_m":
+            kind = UnitOfLength()
         elif option.field.metadata["choices"]:
             kind = click.Choice(option.field.metadata["choices"])
         self.section = f"Options of the stage '{option.section}'"
         self.field_name = option.name
-        help_text = f"{option.help} (default: {_shown(option.field.default)})"
+        words = f"; or {', '.join(UNITS_M)}" if isinstance(kind, UnitOfLength) else ""
+        help_text = f"{option.help}{words} (default: {_shown(option.field.default)})"
         super().__init__([*names, _variable(option)], type=kind, default=None, help=help_text)
 
 
@@ -83,9 +90,29 @@ def _with_plan_options(command: click.Command) -> click.Command:
 @click.command(cls=SectionedCommand, short_help=COMMANDS["plan"])
 @click.argument("building", type=click.Path(path_type=Path))
 @click.option("--out", type=click.Path(path_type=Path), required=True, help="Folder for the results.")
+@click.option(
+    "--keypoints-file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Visit the keypoints of FILE: CSV, JSON, or a bag, whose last ones count.",
+)
+@click.option(
+    "--camera-path",
+    type=click.Path(path_type=Path),
+    metavar="BAG",
+    help="Walk where somebody looked around while BAG was recorded, in that order.",
+)
 @click.option("--compare", is_flag=True, help="Write compare.html and compare.json too: the walk without its parts.")
 @click.option("--quiet", is_flag=True, help="Show no progress.")
-def plan(building: Path, out: Path, compare: bool, quiet: bool, **values: Any) -> int:
+def plan(
+    building: Path,
+    out: Path,
+    keypoints_file: Path | None,
+    camera_path: Path | None,
+    compare: bool,
+    quiet: bool,
+    **values: Any,
+) -> int:
     """Turn BUILDING into a collision-free, timed, recorded walkthrough.
 
     Writes tour.mcap, report.json, report.html, trajectory.csv and walkthrough.glb.
@@ -93,20 +120,40 @@ def plan(building: Path, out: Path, compare: bool, quiet: bool, **values: Any) -
     \b
     Examples:
       ./walk plan building.ifc --out out/building
-      ./walk plan house.obj --units 0.001 --up y --out out/house
+      ./walk plan house.obj --units mm --up y --out out/house
       ./walk plan building.ifc --out out/slow --speed 0.8 --keypoints 12
+      ./walk plan building.ifc --out out/mine --keypoints-file keypoints.csv --order given
     """
     names = {_variable(option): option.name for option in plan_options()}
     given = {names[variable]: value for variable, value in values.items() if value is not None}
+    if camera_path is not None:
+        given.setdefault("order", "given")
     config = plan_config(given)
+    brought = brought_keypoints(keypoints_file, camera_path, given.get("keypoints"))
     # Told to end, it leaves as at Ctrl-C: nothing half-written stays behind.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     started = time.monotonic()
     with _shown_progress(quiet) as progress:
-        walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare)
+        walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare, given=brought)
     for line in summary_lines(walkthrough, out, time.monotonic() - started):
         print(line)
     return 0
+
+
+def brought_keypoints(file: Path | None, camera_path: Path | None, count: int | None) -> ImportedKeypoints | None:
+    """Returns the keypoints that the user brings; None where they are to be suggested.
+
+    Raises:
+        SetupError: The user asks for more than one source of keypoints.
+        WalkError: What is named cannot be read.
+    """
+    named = {"--keypoints-file": file, "--camera-path": camera_path, "--keypoints": count}
+    used = [name for name, value in named.items() if value is not None]
+    if len(used) > 1:
+        raise SetupError(f"{' and '.join(used)} exclude each other: each says which keypoints there are")
+    if file is not None:
+        return read_keypoints(file)
+    return camera_keypoints(camera_path) if camera_path is not None else None
 
 
 def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterator[str]:

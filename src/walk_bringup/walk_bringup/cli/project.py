@@ -96,6 +96,8 @@ def open(  # noqa: A001  (the command's name; nothing here opens a file)
             building=opened.building,
             params=own,
             params_file=opened.parameters_file,
+            units=None,
+            up_axis=None,
             lan=lan,
             port=port,
             viewer_port=viewer_port,

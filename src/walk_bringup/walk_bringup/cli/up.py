@@ -17,6 +17,7 @@ from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
 from walk_bringup.cli.processes import Child, Supervisor
+from walk_bringup.cli.units import UnitOfLength
 from walk_vr_bridge.config import BridgeConfig
 
 NODES = {
@@ -34,6 +35,8 @@ TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, 
 @click.argument("building", type=click.Path(path_type=Path), required=False)
 @click.option("--param", "params", multiple=True, metavar="NODE.NAME=VALUE", help="Set a parameter of a node.")
 @click.option("--params-file", type=click.Path(path_type=Path), help="YAML of parameters; ./walk params prints one.")
+@click.option("--units", type=UnitOfLength(), help="Unit of a file that does not say it: cm, ft, … or metres.")
+@click.option("--up", "up_axis", type=click.Choice(["y", "z"]), help="The axis that points up in such a file.")
 @click.option("--lan", is_flag=True, help="Let headsets and other machines in: TLS, a token and a QR code.")
 @click.option("--port", type=click.IntRange(0, 65535), help="Port of the headset page; 0 takes a free one.")
 @click.option("--viewer-port", type=click.IntRange(0, 65535), help="Port that Foxglove may connect to (default: none).")
@@ -43,6 +46,8 @@ def up(
     building: Path | None,
     params: tuple[str, ...],
     params_file: Path | None,
+    units: float | None,
+    up_axis: str | None,
     lan: bool,
     port: int | None,
     viewer_port: int | None,
@@ -60,10 +65,11 @@ def up(
     Examples:
       ./walk up
       ./walk up building.ifc
+      ./walk up house.obj --units cm --up y
       ./walk up building.ifc --lan
       ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
     """
-    params = (*bridge_params(lan, port), *params)
+    params = (*load_params(units, up_axis), *bridge_params(lan, port), *params)
     if params_file is None:
         refuse_taken_port(params)
     shared = ros_arguments(building, params_file, namespace, log_level)
@@ -98,6 +104,12 @@ def bridge_params(lan: bool, port: int | None) -> tuple[str, ...]:
     """Returns what the options about the page mean as parameters."""
     ports = () if port is None else (f"vr_bridge.bridge.port={port}",)
     return (*(("vr_bridge.bridge.lan=true",) if lan else ()), *ports)
+
+
+def load_params(units_m: float | None, up_axis: str | None) -> tuple[str, ...]:
+    """Returns what the options about the building's file mean as parameters: all nodes read the same file."""
+    given = {"units_m": units_m, "up": up_axis}
+    return tuple(f"{node}.load.{name}={value}" for name, value in given.items() if value is not None for node in NODES)
 
 
 def refuse_taken_port(params: tuple[str, ...]) -> None:

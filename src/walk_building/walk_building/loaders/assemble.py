@@ -94,8 +94,8 @@ def _assumptions(raw: RawModel, options: LoadOptions, part_filter: PartFilter) -
     warnings = []
     if raw.units_m is None and not options.units_m:
         warnings.append(
-            "The file does not say its unit; metres are assumed (for others --units: 0.01 centimetres, 0.001 "
-            "millimetres, 0.0254 inches, 0.3048 feet)."
+            "The file does not say its unit; metres are assumed (for others --units: mm, cm, in, ft, or its length in "
+            "metres)."
         )
     if part_filter.pattern and not part_filter.dropped:
         warnings.append(f"The pattern to ignore, {part_filter.pattern!r}, found no part.")

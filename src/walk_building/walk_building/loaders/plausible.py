@@ -21,7 +21,7 @@ _LONGEST_M = 5000.0
 _TALLEST_M = 1000.0
 # Few buildings are higher, while a single storey in centimetres read as metres is 250 m.
 _TALLEST_UNSTATED_M = 200.0
-_ASK = "give its unit with --units (0.01 for centimetres, 0.001 for millimetres, 0.0254 for inches, 0.3048 for feet)"
+_ASK = "give its unit with --units (mm, cm, in, ft, or its length in metres)"
 
 # A walker's clearance of a few centimetres means nothing if walls are only known this well.
 _COARSE_M = 0.005
