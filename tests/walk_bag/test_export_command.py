@@ -11,14 +11,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
+from rcl_interfaces.msg import ParameterEvent
+from rclpy.parameter import Parameter
 from scenes import two_rooms
 
-from walk_bag import BagWriter
+from walk_bag import BagTopic, BagWriter
+from walk_bag.imports import recorded_building
+from walk_bag.parameter_watch import TOPIC as PARAMETERS
 from walk_bag.storage import read_bag
 from walk_bag.walkthrough import bag_topic
 from walk_bringup.cli.main import main
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions
+from walk_building.pipeline import building_hash
+from walk_building.walker import Walker
 from walk_ros import conversions as c
 from walk_ros.diagnostics import Diagnostics
 from walk_ros.raw import to_bytes
@@ -110,6 +116,46 @@ def test_a_building_that_was_changed_or_is_gone_is_said(bag: Path, capsys: pytes
     assert "is not there any more; --building FILE shows it" in capsys.readouterr().out
     assert main(["export", str(bag), "--to", "csv"]) == 0
     assert rows(bag.with_name("tour-csv.csv"))[0, 1] == pytest.approx(11.0)
+
+
+def name_building_as_nodes_do(bag: Path, file: Path, options: LoadOptions) -> None:
+    """Puts into the bag what a recorder hears of a running graph: diagnostics and the nodes' parameters."""
+    told = Diagnostics("walk/sequencer")
+    told.building(str(file), building_hash(load_model(file, options), options, Walker()))
+    shared = {"load": options, "walker": Walker()}
+    values = {f"{g}.{n}": v for g, config in shared.items() for n, v in dataclasses.asdict(config).items()}
+    event = ParameterEvent(
+        node="/walk/sequencer", new_parameters=[Parameter(n, value=v).to_parameter_msg() for n, v in values.items()]
+    )
+    watched = BagTopic(
+        name=PARAMETERS, type_name="rcl_interfaces/msg/ParameterEvent", latched=False, reliable=True, depth=1000
+    )
+    messages = list(read_bag(bag))
+    with BagWriter(bag) as writer:
+        writer.write(watched, STAMP, to_bytes(event))
+        writer.write(bag_topic("/diagnostics"), STAMP, to_bytes(told.to_msg(STAMP)))
+        for message in messages:
+            writer.write(message.topic, message.stamp_ns, message.data)
+
+
+def test_a_recorded_session_is_exported_with_the_load_options_it_was_run_with(
+    bag: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = bag.with_name("rooms.ply")
+    trimesh.util.concatenate(two_rooms()).export(file)
+    name_building_as_nodes_do(bag, file, LoadOptions(units_m=0.5))
+    named = recorded_building(bag)
+    assert named.load == LoadOptions(units_m=0.5) and named.walker == Walker()
+    assert main(["export", str(bag), "--to", "glb"]) == 0
+    assert "note" not in capsys.readouterr().out
+    width = np.ptp(trimesh.load(bag.with_name("tour-glb.glb")).geometry["Building"].bounds, axis=0)[0]
+    assert width == pytest.approx(0.5 * np.ptp(trimesh.load(file).bounds, axis=0)[0])
+    # What the command line says goes before, and is noticed; so is another file.
+    assert main(["export", str(bag), "--to", "glb", "--units", "m"]) == 0
+    assert "or was loaded otherwise" in capsys.readouterr().out
+    trimesh.util.concatenate(two_rooms()[:-1]).export(file)
+    assert main(["export", str(bag), "--to", "glb"]) == 0
+    assert "is not what the walk was planned in" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

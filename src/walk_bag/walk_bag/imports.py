@@ -6,22 +6,28 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from rclpy.parameter import parameter_value_to_python
 
 from walk_bag.errors import BagError
 from walk_bag.exports.ride import Ride
 from walk_bag.storage import read_bag
+from walk_building.config import Config
 from walk_building.errors import WalkError
 from walk_building.model import LoadOptions
+from walk_building.walker import Walker
 from walk_ros.conversions.checks import finite_array
 from walk_ros.conversions.poses import keypoints_from_msg, viewpoint_from_msg
 from walk_ros.conversions.trajectories import trajectory_from_msg
 from walk_ros.raw import from_bytes
 from walk_ros.topics import absolute_name
+
+C = TypeVar("C", bound=Config)
 
 SOURCES = ("trajectory", "viewpoint")
 """What of a bag can be a ride: what was planned last, and what was looked at."""
@@ -103,23 +109,32 @@ class RecordedBuilding:
     hash: str = ""
     content_hash: str = ""  # of the file and the load options
     load: LoadOptions | None = None
+    walker: Walker | None = None
     offset_m: NDArray[np.float64] | None = None  # (3,) see Model
 
 
 def recorded_building(bag: Path | str) -> RecordedBuilding:
-    """Returns the building that a plan, or the nodes while they were recorded, told of in a bag's diagnostics.
+    """Returns the building that a plan, or the nodes while they were recorded, told of in a bag.
+
+    Path and hash come from the diagnostics. So do the load options of a plan; those of nodes are among the parameters.
 
     Raises:
         BagError: The bag cannot be read, or what it says of the building is not sound.
     """
     told: dict[str, str] = {}
-    for message in read_bag(bag, {"/diagnostics"}):
-        for status in from_bytes(message.data, message.topic.type_name).status:
+    parameters: dict[str, Any] = {}
+    for message in read_bag(bag, {"/diagnostics", "/parameter_events"}):
+        msg = from_bytes(message.data, message.topic.type_name)
+        if message.topic.name == "/parameter_events":
+            parameters |= _values([*msg.new_parameters, *msg.changed_parameters])
+            continue
+        for status in msg.status:
             values = {entry.key: entry.value for entry in status.values if entry.value}
             if "building" in values or "building_hash" in values:
                 told |= values
     try:
-        load = LoadOptions(**json.loads(told["load"])) if "load" in told else None
+        load = LoadOptions(**json.loads(told["load"])) if "load" in told else _config(LoadOptions, "load", parameters)
+        walker = _config(Walker, "walker", parameters)
         offset = finite_array("/diagnostics", "offset_m", [json.loads(told.get("offset_m", "[0, 0, 0]"))], 3)[0]
     except (ValueError, TypeError, WalkError) as error:
         raise BagError(bag, f"what it says of the building cannot be used: {error}") from error
@@ -128,5 +143,17 @@ def recorded_building(bag: Path | str) -> RecordedBuilding:
         hash=told.get("building_hash", ""),
         content_hash=told.get("content_hash", ""),
         load=load,
+        walker=walker,
         offset_m=offset if "offset_m" in told else None,
     )
+
+
+def _values(parameters: list[Any]) -> dict[str, Any]:
+    return {p.name: parameter_value_to_python(p.value) for p in parameters}
+
+
+def _config(kind: type[C], group: str, parameters: Mapping[str, Any]) -> C | None:
+    """Returns a config that all nodes share, of the parameters by name; None where none of it was told."""
+    names = {field.name: f"{group}.{field.name}" for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
+    found = {name: parameters[full] for name, full in names.items() if full in parameters}
+    return kind(**found) if found else None

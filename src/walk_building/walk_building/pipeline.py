@@ -130,7 +130,7 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
             place_area_m2=columns.cell_m**2,
             doors=model.doors,
         ),
-        hash=_hash(model, options, walker),
+        hash=building_hash(model, options, walker),
         warnings=model.warnings + closed_door_warnings(closed, model.offset_m),
         closed_doors=closed,
     )
@@ -202,6 +202,7 @@ def _no_floor(model: Model, walker: Walker) -> str:
     )
 
 
-def _hash(model: Model, options: LoadOptions, walker: Walker) -> str:
+def building_hash(model: Model, options: LoadOptions, walker: Walker) -> str:
+    """Returns the name of a building: of the file, the load options and the walker, hex."""
     settings = repr((model.content_hash, dataclasses.astuple(options), dataclasses.astuple(walker), CELL_M))
     return hashlib.sha256(settings.encode()).hexdigest()

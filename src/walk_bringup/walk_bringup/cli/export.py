@@ -20,11 +20,12 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 from walk_bag.exports import EXPORTERS, export_ride
 from walk_bag.exports.ride import ExportConfig, Ride
-from walk_bag.imports import SOURCES, load_ride, recorded_building
+from walk_bag.imports import SOURCES, RecordedBuilding, load_ride, recorded_building
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.cli.units import UnitOfLength
 from walk_building.loaders import load_model
-from walk_building.model import LoadOptions
+from walk_building.model import LoadOptions, Model
+from walk_building.pipeline import building_hash
 from walk_building.progress import no_progress
 
 _FORMATS = "\n".join(f"  {name:<15} {exporter.doc} ({exporter.suffix})" for name, exporter in EXPORTERS.items())
@@ -86,9 +87,10 @@ def _placed(
     file = building or (Path(named.path) if named.path and Path(named.path).is_file() else None)
     if file is not None:
         # Options on the command line go before those of the plan.
-        model = load_model(file, named.load if named.load is not None and options == LoadOptions() else options)
+        load = named.load if named.load is not None and options == LoadOptions() else options
+        model = load_model(file, load)
         placed = dataclasses.replace(ride, model=model, offset_m=model.offset_m, building_name=file.name)
-        changed = bool(content) and content != model.content_hash
+        changed = _differs(model, load, named, content)
         return placed, [f"{file} is not what the walk was planned in, or was loaded otherwise"] if changed else []
     offset = named.offset_m if named.offset_m is not None else report.get("offset_m")
     name = named.path or report.get("file", "")
@@ -100,6 +102,13 @@ def _placed(
         f"the building is not known ({name or 'the bag names none'}): positions are those of the planner, near the "
         "origin; --building FILE gives the building's own"
     ]
+
+
+def _differs(model: Model, load: LoadOptions, named: RecordedBuilding, content_hash: str) -> bool:
+    """Returns whether a model is another than the bag's, as far as that says which it was."""
+    if content_hash:
+        return content_hash != model.content_hash
+    return named.walker is not None and building_hash(model, load, named.walker) != named.hash
 
 
 def _report_beside(bag: Path) -> dict[str, Any]:
