@@ -65,6 +65,9 @@ def open_project(layout: Layout, building: Path | None = None, *, as_saved: bool
     if built.hash != tour.building_hash or not (kept.edited and same(kept, tour.keypoints)):
         keypoints, gone = _fitting(built, tour, settings)
         notes += gone
+        if gone:
+            them = "it" if len(gone) == 1 else "them"
+            notes.append(f"{layout.tour_file.name} keeps {them} until the tour is saved again.")
         journal = begun_with(keypoints)
     try:
         notes += _make_ready(layout, built, journal, settings, as_saved=as_saved)
