@@ -220,3 +220,13 @@ def test_in_the_duplex_every_room_of_the_dwelling_gets_one(buildings_dir: Path) 
     assert {s.room for s in found.skipped} == set(range(len(building.rooms))) - reachable
     assert all(s.reason for s in found.skipped)
     assert_standable(building, found)
+
+
+def test_a_single_room_gets_two_keypoints_since_a_walk_leads_from_one_to_another() -> None:
+    chamber = building_of(shell(5.0, 4.0))
+    found = suggest_keypoints(chamber, compute_importance(chamber))
+    assert len(found.positions) == 2
+    assert np.linalg.norm(found.positions[0] - found.positions[1]) > KeypointConfig().cone_radius_m / 2
+    closet = building_of(shell(1.6, 1.6))
+    assert len(suggest_keypoints(closet, compute_importance(closet)).positions) == 1, "there is no room for two"
+    assert len(suggest_keypoints(chamber, compute_importance(chamber), KeypointConfig(count=1)).positions) == 1

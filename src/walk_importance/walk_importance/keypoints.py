@@ -66,7 +66,8 @@ def suggest_keypoints(
 
     Rooms come in order of their best candidate. With a `count`, rooms beyond it are skipped and what is left over
     goes to the most important places anywhere. With count 0 each room gets keypoints, always the most important
-    place among those not seen yet, until `room_coverage` of its floor is seen.
+    place among those not seen yet, until `room_coverage` of its floor is seen; a building of which one keypoint sees
+    enough gets a second one where there is room, since a walk leads from one to another.
 
     Args:
         building: The building.
@@ -92,6 +93,8 @@ def suggest_keypoints(
             _cover_room(building, choice, candidates.room == room, config)
         if not rooms:
             _cover_room(building, choice, np.ones(len(candidates.place), bool), config)
+        if len(choice.chosen) == 1:
+            choice.take(_away_from(candidates, choice.chosen[0], config.cone_radius_m / 2))
     return _suggestion(building, importance_map, choice, _skipped(building, rooms, config.count))
 
 
@@ -163,6 +166,12 @@ def _cover_room(building: Building, choice: _Choice, in_room: NDArray[np.bool_],
         # Its own square counts as seen even where the sample of it does not.
         seen[candidates.square[best] - first] = True
         new = [best]
+
+
+def _away_from(candidates: Candidates, chosen: int, distance_m: float) -> NDArray[np.bool_]:
+    """Returns the candidates that are farther than the distance from a chosen one; all where none is."""
+    far = np.linalg.norm(candidates.eyes - candidates.eyes[chosen], axis=1) > distance_m
+    return far if far.any() else np.ones_like(far)
 
 
 def _skipped(building: Building, served: list[int], count: int) -> tuple[SkippedRoom, ...]:
