@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every command of the README and of the tutorial runs, as it is printed there, one after the other."""
+"""Every command of the pages that a new user reads runs, as it is printed there, one after the other."""
 
 from __future__ import annotations
 
@@ -35,7 +35,9 @@ UNTIL = {
 OURSELVES = {"./walk test", "./walk check"}
 
 
-PAGES = ("README.md", "docs/quickstart.md", "docs/tutorial.md")
+PAGES = ("README.md", "docs/quickstart.md", "docs/tutorial.md", "docs/formats.md")
+GOES_ON = {"docs/formats.md": "README.md"}
+"""Pages that begin with what the commands of another have written."""
 
 
 def commands() -> list[tuple[str, str]]:
@@ -50,14 +52,14 @@ def commands() -> list[tuple[str, str]]:
 def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     if not (ROOT / "build" / "walk" / "environment.json").exists():
         pytest.skip("this checkout was not set up by ./walk")
-    made = {page: tmp_path_factory.mktemp(Path(page).stem) for page in PAGES}
+    made = {page: tmp_path_factory.mktemp(Path(page).stem) for page in PAGES if page not in GOES_ON}
     for folder in made.values():
         # The user's own building, and what is in the checkout as seen from its folder.
         for name in ("building.ifc", "house.ifc"):
             shutil.copy(ROOT / "src/walk_bringup/buildings/sample.ifc", folder / name)
         for name in ("walk", "examples", "src"):
             (folder / name).symlink_to(ROOT / name)
-    return made
+    return made | {page: made[before] for page, before in GOES_ON.items()}
 
 
 @pytest.mark.slow

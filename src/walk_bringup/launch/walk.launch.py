@@ -40,6 +40,9 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument("port", default_value="8765", description="Port of the headset page."),
         DeclareLaunchArgument("lan", default_value="false", description="Let other machines in, with TLS and a token."),
         DeclareLaunchArgument(
+            "viewer_port", default_value="", description="Port that Foxglove may connect to; empty: none."
+        ),
+        DeclareLaunchArgument(
             "parent_frame", default_value="", description="Frame of the world that the building stands in; empty: none."
         ),
         DeclareLaunchArgument(
@@ -72,7 +75,26 @@ def generate_launch_description() -> LaunchDescription:
         )
         for name, package in NODES.items()
     ]
-    return LaunchDescription([*arguments, *nodes, OpaqueFunction(function=_transform)])
+    return LaunchDescription(
+        [*arguments, *nodes, OpaqueFunction(function=_viewer), OpaqueFunction(function=_transform)]
+    )
+
+
+def _viewer(context: LaunchContext) -> list[Node]:
+    """Returns the server for Foxglove, none where no port is named."""
+    port = LaunchConfiguration("viewer_port").perform(context)
+    if not port:
+        return []
+    return [
+        Node(
+            package="walk_bag",
+            executable="viewer",
+            name="viewer",
+            namespace=LaunchConfiguration("namespace"),
+            parameters=[{"viewer_port": int(port)}],
+            output="screen",
+        )
+    ]
 
 
 def _transform(context: LaunchContext) -> list[Node]:
