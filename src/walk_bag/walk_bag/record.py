@@ -9,6 +9,7 @@ import contextlib
 import datetime
 import os
 import sys
+import threading
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -17,20 +18,27 @@ from walk_bag.errors import BagError
 from walk_bag.spool import Spool
 from walk_bag.storage import BagWriter
 from walk_bag.topics import BagTopic
-from walk_ros.raw import RawSubscriber, policies
+from walk_ros.raw import RawCollector, policies
 from walk_ros.runner import run_node, user_arguments
 from walk_ros.topics import NAMESPACE, TOPICS, Topic, absolute_name, type_name
 
 QUEUE_DEPTH = 500
 """Messages of a topic that may wait: five seconds of a drag at a headset's rate."""
 
+COLLECT_S = 0.05
+"""Messages are taken all this long together: once for each would cost the graph the processor's time."""
+
+PREVIEWED = ("path", "trajectory")
+"""States that come anew with every move of a hand, each large and replaced by the next."""
+
 NICENESS = 10
 """The nodes that answer edits go first."""
 
 EXIT_DISK = 1
+_LOW_HZ, _HIGH_HZ = 0.5, 50.0
 
 
-class Recorder(RawSubscriber):
+class Recorder(RawCollector):
     """Writes every message of the walkthrough's topics, and the nodes' parameters, to a bag as they come in.
 
     Attributes:
@@ -39,33 +47,59 @@ class Recorder(RawSubscriber):
 
     failed = False
 
-    def __init__(self, writer: BagWriter, topics: dict[str, Topic], namespace: str) -> None:
+    def __init__(self, writer: BagWriter, topics: dict[str, Topic], namespace: str, previews_hz: float = 0.0) -> None:
+        """Begins to record.
+
+        Args:
+            writer: The bag; closed by whoever made it.
+            topics: By full name.
+            namespace: Of the nodes.
+            previews_hz: How many messages a second of the PREVIEWED topics are kept, the last of each such time; 0 for
+                all of them.
+        """
         self._writer = writer
+        self._thinned = frozenset(absolute_name(t, namespace) for t in PREVIEWED) if previews_hz else frozenset()
         self._topics = {
             name: BagTopic(name=name, type_name=type_name(spec.type), **policies(spec.qos))
             for name, spec in topics.items()
         }
         self._seen: set[str] = set()
+        super().__init__("record", topics, depth=QUEUE_DEPTH)
+        # From here on: the middleware's own threads, begun above, must take every message in before the next.
+        yield_to_others()
         self._spool = Spool(writer, self._stop)
-        super().__init__("record", topics, self._take, depth=QUEUE_DEPTH)
+        self.create_timer(1.0 / previews_hz if previews_hz else COLLECT_S, self._take)
         if parameter_watch.TOPIC in topics:
             self._watch = parameter_watch.ParameterWatch(self, namespace, self._take_parameters)
         self.get_logger().info(f"recording {len(topics)} topics to {writer.path}; Ctrl-C ends it")
 
     def destroy_node(self) -> None:
         """Writes what has come in, then ends the node."""
+        self._take()
         self._spool.close()
         super().destroy_node()
 
-    def _take(self, topic: str, data: bytes, received_ns: int) -> None:
+    def _take(self) -> None:
+        clock = self.get_clock()
+        found = self.collect()
+        last = {message.topic: message for message in found}
+        for message in found:
+            topic, data, received_ns = message
+            if topic in self._thinned and message is not last[topic]:
+                continue
+            stamp_ns = clock.now().nanoseconds if clock.ros_time_is_active else received_ns
+            self._put(topic, data, stamp_ns)
+
+    def _put(self, topic: str, data: bytes, stamp_ns: int) -> None:
         if topic not in self._seen:
             self._seen.add(topic)
             self.get_logger().info(f"first of {topic}")
             self._check_type(topic)
-        self._spool.put(self._topics[topic], received_ns, data)
+        self._spool.put(self._topics[topic], stamp_ns, data)
 
     def _take_parameters(self, data: bytes) -> None:
-        self._take(parameter_watch.TOPIC, data, self.get_clock().now().nanoseconds)
+        self._take()
+        self._put(parameter_watch.TOPIC, data, self.get_clock().now().nanoseconds)
 
     def _stop(self, error: BagError) -> None:
         """Ends the recording, and nothing else of the graph."""
@@ -78,6 +112,12 @@ class Recorder(RawSubscriber):
         sent, kept = self.type_hash(topic), self._writer.type_hash(self._topics[topic].type_name)
         if sent and sent != kept:
             self.get_logger().warning(f"{topic}: the publisher's type is {sent}, the bag names {kept}")
+
+
+def yield_to_others() -> None:
+    """Lets every other process go before this thread, and before those that it begins from now on."""
+    with contextlib.suppress(OSError):
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
 
 
 def chosen_topics(namespace: str, names: Sequence[str]) -> dict[str, Topic]:
@@ -95,7 +135,16 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--out", type=Path, help="directory, or file ending in .mcap (default: named by the time)")
     parser.add_argument("--namespace", default=NAMESPACE, help="of the nodes (default: %(default)s)")
     parser.add_argument("--topics", nargs="+", default=[], choices=list(TOPICS), help="only these", metavar="TOPIC")
+    parser.add_argument(
+        "--previews",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="keep so many paths and trajectories a second, always the last one (default: all)",
+    )
     options = parser.parse_args(argv)
+    if not (options.previews == 0.0 or _LOW_HZ <= options.previews <= _HIGH_HZ):
+        parser.error(f"--previews is {options.previews:g}; expected {_LOW_HZ:g} to {_HIGH_HZ:g} a second, or 0 for all")
     options.out = options.out or Path(f"walkthrough-{datetime.datetime.now():%Y%m%d-%H%M%S}")
     return options
 
@@ -104,15 +153,14 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Records until SIGINT or SIGTERM; returns the exit code."""
     argv = list(sys.argv if argv is None else argv)
     options = parse(user_arguments(argv)[1:])
-    with contextlib.suppress(OSError):
-        os.nice(NICENESS)
     made: list[Recorder] = []
     try:
         # Left on every way out of the node, so that the bag is always complete.
         with BagWriter(options.out, keep=True) as writer:
 
             def factory() -> Recorder:
-                made.append(Recorder(writer, chosen_topics(options.namespace, options.topics), options.namespace))
+                topics = chosen_topics(options.namespace, options.topics)
+                made.append(Recorder(writer, topics, options.namespace, options.previews))
                 return made[0]
 
             code = run_node(factory, argv)

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import queue
 import threading
 import time
@@ -48,6 +49,7 @@ class Spool:
         self._thread.join()
 
     def _run(self) -> None:
+        _go_behind_all_others()
         try:
             self._write_all()
         except BagError as error:
@@ -66,3 +68,12 @@ class Spool:
             if waiting_since is not None and time.monotonic() - waiting_since >= self._flush_s:
                 self._writer.flush()
                 waiting_since = None
+
+
+def _go_behind_all_others() -> None:
+    """Lets this thread run only where a processor is free: compressing must not make an edit wait for its turn.
+
+    A thread that is merely nice is let finish its turn of some milliseconds when another wakes up.
+    """
+    with contextlib.suppress(OSError):
+        os.sched_setscheduler(threading.get_native_id(), os.SCHED_IDLE, os.sched_param(0))

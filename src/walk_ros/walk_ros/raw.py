@@ -4,10 +4,13 @@
 
 from __future__ import annotations
 
+import bisect
 import importlib
+import time
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -63,10 +66,76 @@ class RawSubscriber(Node):
         qos = profile(**{**policies(spec.qos), "depth": max(int(spec.qos.depth), depth)})
         self.create_subscription(spec.type, topic, callback, qos, raw=True)
 
+
+class RawCollector(Node):
+    """Takes the messages of some topics as bytes, many at a time and whenever it is asked to.
+
+    A message wakes nobody up: the middleware keeps it, with the time at which it came in, until `collect`.
+    """
+
+    def __init__(self, name: str, topics: Mapping[str, Topic], *, depth: int) -> None:
+        """Subscribes.
+
+        Args:
+            name: Of the node.
+            topics: By full name.
+            depth: How many messages of a topic may wait, where the topic's own profile has fewer.
+        """
+        super().__init__(name)
+        self._ahead: list[RawMessage] = []
+        self._by_topic = {
+            topic: self.create_subscription(
+                spec.type,
+                topic,
+                _nobody,
+                profile(**{**policies(spec.qos), "depth": max(int(spec.qos.depth), depth)}),
+                callback_group=_NotByTheExecutor(),
+                raw=True,
+            )
+            for topic, spec in topics.items()
+        }
+
+    def collect(self) -> list[RawMessage]:
+        """Returns what has come in since the last call, by time."""
+        now_ns = time.time_ns()
+        found = self._ahead
+        for topic, subscription in self._by_topic.items():
+            with subscription.handle:
+                while (taken := subscription.handle.take_message(subscription.msg_type, True)) is not None:
+                    found.append(RawMessage(topic, bytes(taken[0]), taken[1]["received_timestamp"]))
+        found.sort(key=_time_of)
+        # Of what came in meanwhile, something earlier may still be on a topic that was asked before.
+        cut = bisect.bisect_right(found, now_ns, key=_time_of)
+        self._ahead = found[cut:]
+        return found[:cut]
+
     def type_hash(self, topic: str) -> str:
         """Returns the type hash (`RIHS01_…`) that a publisher of the topic announces, "" if none is known."""
         infos = self.get_publishers_info_by_topic(topic)
         return str(infos[0].topic_type_hash) if infos else ""
+
+
+class RawMessage(NamedTuple):
+    """A message as bytes."""
+
+    topic: str  # full name
+    data: bytes  # CDR
+    received_ns: int
+
+
+def _time_of(message: RawMessage) -> int:
+    return message.received_ns
+
+
+def _nobody(data: bytes) -> None:
+    raise AssertionError(f"{len(data)} bytes were taken by the executor")
+
+
+class _NotByTheExecutor(CallbackGroup):
+    """What is in it is left alone by the executor, which would wake up for each message."""
+
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002  (the executor calls it so)
+        return False
 
 
 class RawPublisher(Node):

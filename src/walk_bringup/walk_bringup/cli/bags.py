@@ -14,7 +14,11 @@ from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.cli.executables import find_executable
 
 _EXAMPLES = {
-    "record": ("./walk record --out tour_bag", "./walk record --out tour.mcap --topics path trajectory"),
+    "record": (
+        "./walk record --out tour_bag",
+        "./walk record --out tour.mcap --topics path trajectory",
+        "./walk record --out session --previews 2",
+    ),
     "recover": ("./walk recover tour_bag", "./walk recover tour.part.mcap --out tour.mcap"),
     "replay": ("./walk replay out/building/tour.mcap", "./walk replay tour_bag --start 30 --rate 2 --clock"),
 }

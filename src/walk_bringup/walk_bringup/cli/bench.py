@@ -12,7 +12,7 @@ import click
 from walk_bringup.bootstrap.commands import COMMANDS
 
 _PASS_ON = {"ignore_unknown_options": True, "allow_extra_args": True}
-_OTHERS = {"live": "walk_ros.live_bench", "bridge": "walk_vr_bridge.bench"}
+_OTHERS = {"live": "walk_ros.live_bench", "record": "walk_bag.record_bench", "bridge": "walk_vr_bridge.bench"}
 """Measurements that start nodes, by the word that chooses them."""
 
 

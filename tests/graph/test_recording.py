@@ -1,0 +1,120 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""A recorder misses nothing of a fast session, thins what it is told to thin, and its measurement runs."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from graph.processes import LIMIT_S, Graph, Observer
+
+from walk_bag import read_bag
+from walk_bag.record import main as record
+from walk_ros import conversions as c
+from walk_ros.raw import from_bytes
+from walk_ros.topics import TOPICS, absolute_name
+
+pytestmark = pytest.mark.ros
+
+PATHS = 150
+HZ = 60.0
+LINE = np.column_stack([np.arange(200.0), np.zeros(200), np.full(200, 1.6)])
+AHEAD = np.tile([0.0, 0.0, 0.0, 1.0], (200, 1))
+
+
+def recorded(domain, folder, *arguments):
+    """Returns the stamps of paths and edits in a bag that was recorded while both were published 60 times a second."""
+    graph, talker = Graph(domain, folder, ""), Observer(domain, "talker")
+    publishers = {
+        name: talker.node.create_publisher(TOPICS[name].type, absolute_name(name), TOPICS[name].qos)
+        for name in ("path", "edit_results")
+    }
+    try:
+        graph.run("record", "walk_bag.record", "--out", str(folder / "bag"), *arguments)
+        for name, publisher in publishers.items():
+            # One is this observer itself.
+            talker.wait(lambda p=publisher: p.get_subscription_count() >= 2, f"the recorder to hear {name}")
+        for k in range(1, PATHS + 1):
+            publishers["path"].publish(c.path_to_msg(np.arange(200.0), LINE, AHEAD, k))
+            publishers["edit_results"].publish(
+                c.edit_result_to_msg(
+                    c.EditResult(
+                        outcome=c.Outcome.ACCEPTED,
+                        keypoint="0",
+                        client_id="anna",
+                        reason="",
+                        revision_ns=k,
+                        edit_stamp_ns=k,
+                    )
+                )
+            )
+            talker.executor.spin_once(timeout_sec=1.0 / HZ)
+        talker.wait(lambda: len(talker.heard["edit_results"]) == PATHS, "the last answer")
+        assert graph.interrupt("record") == 0, graph.log("record")
+    finally:
+        talker.close()
+        graph.close()
+    found = {"path": [], "edit_results": []}
+    times = []
+    for message in read_bag(folder / "bag"):
+        name = message.topic.name.rpartition("/")[2]
+        times.append(message.stamp_ns)
+        if name == "path":
+            stamp = from_bytes(message.data, message.topic.type_name).header.stamp
+            found[name].append(stamp.sec * 10**9 + stamp.nanosec)
+        elif name == "edit_results":
+            msg = from_bytes(message.data, message.topic.type_name)
+            found[name].append(c.edit_result_from_msg(msg).edit_stamp_ns)
+    assert times == sorted(times)
+    return found
+
+
+def test_every_message_of_a_fast_session_is_in_the_bag_in_order(other_domain, tmp_path):
+    found = recorded(other_domain, tmp_path)
+    assert found["edit_results"] == list(range(1, PATHS + 1))
+    # Of a latched topic the middleware itself may leave out what was replaced before it was sent.
+    assert found["path"] == sorted(set(found["path"]))
+    assert found["path"][-1] == PATHS
+    assert len(found["path"]) > 0.8 * PATHS
+
+
+def test_previews_are_thinned_to_the_rate_and_the_last_one_is_kept(other_domain, tmp_path):
+    found = recorded(other_domain, tmp_path, "--previews", "2")
+    assert found["edit_results"] == list(range(1, PATHS + 1))
+    assert 2 <= len(found["path"]) <= 12
+    assert found["path"] == sorted(set(found["path"]))
+    assert found["path"][-1] == PATHS
+
+
+@pytest.mark.parametrize("hz", ["-1", "0.1", "500", "nan"])
+def test_a_rate_that_cannot_be_is_said(hz, capsys):
+    with pytest.raises(SystemExit) as ended:
+        record(["record", f"--previews={hz}"])
+    assert ended.value.code == 2
+    assert "expected 0.5 to 50 a second, or 0 for all" in capsys.readouterr().err
+
+
+def bench(graph, *arguments):
+    done = subprocess.run(
+        [sys.executable, "-m", "walk_bag.record_bench", *arguments],
+        env=graph.environment(),
+        capture_output=True,
+        text=True,
+        timeout=4 * LIMIT_S,
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def test_the_measurement_runs_from_start_to_end(graph, rooms, tmp_path):
+    pairs = bench(graph, str(rooms), "--pairs", "1", "--seconds", "3")
+    assert pairs["edit_to_path_ms"]["with"]["count"] > 0
+    assert pairs["edit_to_path_ms"]["without"]["count"] > 0
+    assert pairs["recording"]["edits"]["in_bags"] == pairs["recording"]["edits"]["sent"]
+    bag = tmp_path / "session"
+    session = bench(graph, str(rooms), "--session", "6", "--previews", "1", "--keep", str(bag))
+    assert session["recording"]["edits"]["in_bags"] == session["recording"]["edits"]["sent"]
+    assert session["recording"]["paths"]["in_bags"] < session["recording"]["paths"]["received"]
+    assert session["recording"]["mb"] == [round(sum(f.stat().st_size for f in bag.iterdir()) / 1e6, 2)]
