@@ -5,6 +5,7 @@
 import json
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -50,7 +51,9 @@ def recorded(domain, folder, *arguments):
                     )
                 )
             )
-            talker.executor.spin_once(timeout_sec=1.0 / HZ)
+            until = time.monotonic() + 1.0 / HZ
+            while (left := until - time.monotonic()) > 0:
+                talker.executor.spin_once(timeout_sec=left)
         talker.wait(lambda: len(talker.heard["edit_results"]) == PATHS, "the last answer")
         assert graph.interrupt("record") == 0, graph.log("record")
     finally:

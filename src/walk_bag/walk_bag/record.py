@@ -75,9 +75,11 @@ class Recorder(RawCollector):
 
     def destroy_node(self) -> None:
         """Writes what has come in, then ends the node."""
-        self._take()
-        self._spool.close()
-        super().destroy_node()
+        try:
+            self._take()
+        finally:
+            self._spool.close()
+            super().destroy_node()
 
     def _take(self) -> None:
         clock = self.get_clock()
@@ -93,8 +95,9 @@ class Recorder(RawCollector):
     def _put(self, topic: str, data: bytes, stamp_ns: int) -> None:
         if topic not in self._seen:
             self._seen.add(topic)
-            self.get_logger().info(f"first of {topic}")
-            self._check_type(topic)
+            if self.context.ok():  # what comes with the last messages is written without a word
+                self.get_logger().info(f"first of {topic}")
+                self._check_type(topic)
         self._spool.put(self._topics[topic], stamp_ns, data)
 
     def _take_parameters(self, data: bytes) -> None:
