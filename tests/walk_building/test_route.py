@@ -23,7 +23,7 @@ def length(points):
 
 
 def test_ways_are_free_and_hardly_longer_than_the_shortest(rooms):
-    router, surface = Router(rooms, comfort_m=0.2), rooms.surface
+    router, surface = Router(rooms), rooms.surface
     sweep = BodySweep(rooms.geometry, rooms.walker)
     places = np.flatnonzero(rooms.reachable)
     dice = np.random.default_rng(0)
@@ -43,14 +43,14 @@ def test_ways_are_free_and_hardly_longer_than_the_shortest(rooms):
 
 def test_a_way_follows_the_floor():
     building = building_of(ramp(slope=0.125))
-    way = Router(building, comfort_m=0.2).way(np.array([3.0, 1.0, EYE + 0.125]), np.array([9.0, 1.0, EYE + 0.875]))
+    way = Router(building).way(np.array([3.0, 1.0, EYE + 0.125]), np.array([9.0, 1.0, EYE + 0.875]))
     assert way is not None
     np.testing.assert_allclose(way[:, 2] - EYE, 0.125 * (way[:, 0] - 2.0), atol=0.03)
 
 
 def test_an_end_off_the_floor_or_behind_a_wall_has_no_way():
     building = building_of([*shell(8, 6), box((3.9, 0, 0), (4.1, 6, 3))])
-    router = Router(building, comfort_m=0.2)
+    router = Router(building)
     here = building.eyes(np.flatnonzero(building.reachable)[:1])[0]
     assert router.way(here, np.array([30.0, 3.0, EYE])) is None
     beyond = np.array([8.0 - here[0], 3.0, EYE])
@@ -58,7 +58,7 @@ def test_an_end_off_the_floor_or_behind_a_wall_has_no_way():
 
 
 def test_the_same_question_has_the_same_answer(rooms):
-    router = Router(rooms, comfort_m=0.2)
+    router = Router(rooms)
     a, b = np.array([1.0, 1.0, EYE]), np.array([7.0, 1.0, EYE])
     first = router.way(a, b)
     router.way(b, a)

@@ -97,7 +97,7 @@ def test_an_edit_without_a_way_keeps_the_last_path_and_says_why(screen: Building
 @pytest.mark.parametrize("hasty", [False, True])
 def test_a_router_leads_a_dragged_keypoint_round_the_screen(screen: Building, hasty: bool) -> None:
     keypoints = eyes((1, 1), (2, 3), (1, 5))
-    optimiser = Optimiser(screen, keypoints, keypoints, router=Router(screen, comfort_m=0.2))
+    optimiser = Optimiser(screen, keypoints, keypoints, router=Router(screen))
     optimiser.solve()
     optimiser.check()
     sweep = BodySweep(screen.geometry, screen.walker)
@@ -113,7 +113,7 @@ def test_a_router_leads_a_dragged_keypoint_round_the_screen(screen: Building, ha
 def test_hasty_moves_keep_what_they_found_and_the_last_one_forgets_it(rooms: Building) -> None:
     # Points half a metre apart and a corner to cut: without more weight on the clearance the curve collides.
     keypoints = eyes((1, 0.6), (3.5, 3.2), (7, 0.6))
-    optimiser = Optimiser(rooms, keypoints, keypoints, TrajoptConfig(points=12), router=Router(rooms, comfort_m=0.2))
+    optimiser = Optimiser(rooms, keypoints, keypoints, TrajoptConfig(points=12), router=Router(rooms))
     optimiser.solve()
     optimiser.check()
     sweep = BodySweep(rooms.geometry, rooms.walker)

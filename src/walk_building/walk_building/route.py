@@ -17,23 +17,20 @@ from walk_building.tighten import follow_floor, tighten
 _SNAP_M = 0.5  # farthest that an end may be from a place to stand on
 _MOST_PLACES = 40_000  # looked at in one search: some 400 m² of floor, three milliseconds
 _FLOOR_M = 0.02  # largest height by which the way's straight pieces leave the floor
-_COMFORT_WEIGHT = 1.0  # a metre along a wall costs as much as two with room: the way then has some to either side
+# A metre along a wall costs as much as two with room, which is so much beyond the body: a way then has some to both
+# sides. Whoever smooths it wants it there; the sequencer's legs have prices of their own.
+_COMFORT_M, _COMFORT_WEIGHT = 0.2, 1.0
 
 
 class Router:
     """Finds ways over the part of the surface that a tour may use. Not safe to share between threads."""
 
-    def __init__(self, building: Building, comfort_m: float) -> None:
-        """Lays the floor out; takes tenths of a second in a large building.
-
-        Args:
-            building: Where to walk.
-            comfort_m: Distance to the walls, beyond the body, from which a way has nothing to gain [m].
-        """
+    def __init__(self, building: Building) -> None:
+        """Lays the floor out; takes tenths of a second in a large building."""
         self._surface = building.surface
         self._walker = building.walker
         self._ground, kept = lay_floor(
-            building.surface, building.reachable, building.walker.eye_height_m, comfort_m, _COMFORT_WEIGHT
+            building.surface, building.reachable, building.walker.eye_height_m, _COMFORT_M, _COMFORT_WEIGHT
         )
         self._local = np.full(len(building.surface.places), -1, dtype=np.int64)
         self._local[kept] = np.arange(len(kept))

@@ -79,7 +79,7 @@ def floor_planes(grid, eyes, eye_height, reach, out):
     """Fits a plane to the places around each eye; see WalkableSurface.floor_plane."""
     for n in range(eyes.shape[0]):
         z = eyes[n, 2] - eye_height
-        out[n] = _fit_plane(grid, eyes[n, 0], eyes[n, 1], z, reach)
+        out[n, 0], out[n, 1], out[n, 2] = _fit_plane(grid, eyes[n, 0], eyes[n, 1], z, reach)
         if np.isnan(out[n, 0]):
             p = nearest_place(grid, eyes[n, 0], eyes[n, 1], z, reach, NEAREST_RADIUS_M)
             if p >= 0:
@@ -88,44 +88,35 @@ def floor_planes(grid, eyes, eye_height, reach, out):
 
 @numba.njit(cache=True, nogil=True)
 def _fit_plane(grid, x, y, z, reach):
-    m = np.zeros((3, 3))
-    rhs = np.zeros(3)
-    row = np.ones(3)
+    """Returns height and slopes of the plane through the floor around a point, by weighted least squares; nan: none."""
     i0, j0 = (x - grid.origin_x) / grid.cell, (y - grid.origin_y) / grid.cell
     r = FIT_RADIUS_M / grid.cell
+    # Sums of weight, and of weight times u, v, uu, uv, vv, h, uh, vh; u, v, h are offsets from the point.
+    w, wu, wv, wuu, wuv, wvv, wh, wuh, wvh = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(int(np.ceil(i0 - r)), int(np.floor(i0 + r)) + 1):
         for j in range(int(np.ceil(j0 - r)), int(np.floor(j0 + r)) + 1):
-            off = np.sqrt((i - i0) ** 2 + (j - j0) ** 2)
-            if off >= r:
+            square = ((i - i0) ** 2 + (j - j0) ** 2) / (r * r)
+            if square >= 1.0:
                 continue
             p = place_in_column(grid, i, j, z, reach)
             if p < 0:
                 continue
             # A weight that ends with zero value and slope at the rim keeps the height smooth along a path.
-            weight = (1.0 - (off / r) ** 2) ** 2
-            row[1], row[2] = grid.places[p, 0] - x, grid.places[p, 1] - y
-            for a in range(3):
-                rhs[a] += weight * row[a] * (grid.places[p, 2] - z)
-                for b in range(3):
-                    m[a, b] += weight * row[a] * row[b]
-    plane = np.full(3, np.nan)
-    if m[0, 0] <= 0.0:
-        return plane
+            weight = (1.0 - square) ** 2
+            u, v, h = grid.places[p, 0] - x, grid.places[p, 1] - y, grid.places[p, 2] - z
+            w, wu, wv, wh = w + weight, wu + weight * u, wv + weight * v, wh + weight * h
+            wuu, wuv, wvv = wuu + weight * u * u, wuv + weight * u * v, wvv + weight * v * v
+            wuh, wvh = wuh + weight * u * h, wvh + weight * v * h
+    if w <= 0.0:
+        return np.nan, 0.0, 0.0
     # A little damping of the slopes, in units of the weights, decides for level where the places are in a line.
-    damping = m[0, 0] * (0.1 * grid.cell) ** 2
-    m[1, 1] += damping
-    m[2, 2] += damping
-    for a in range(3):
-        # Positive definite: elimination needs no choice of rows.
-        for b in range(a + 1, 3):
-            share = m[b, a] / m[a, a]
-            rhs[b] -= share * rhs[a]
-            for c in range(a, 3):
-                m[b, c] -= share * m[a, c]
-    plane[2] = rhs[2] / m[2, 2]
-    plane[1] = (rhs[1] - m[1, 2] * plane[2]) / m[1, 1]
-    plane[0] = z + (rhs[0] - m[0, 1] * plane[1] - m[0, 2] * plane[2]) / m[0, 0]
-    return plane
+    damping = w * (0.1 * grid.cell) ** 2
+    # Positive definite: elimination needs no choice of rows.
+    uu, uv, uh = wuu + damping - wu * wu / w, wuv - wu * wv / w, wuh - wu * wh / w
+    vv, vh = wvv + damping - wv * wv / w - uv * uv / uu, wvh - wv * wh / w - uv * uh / uu
+    along_y = vh / vv
+    along_x = (uh - uv * along_y) / uu
+    return z + (wh - wu * along_x - wv * along_y) / w, along_x, along_y
 
 
 @numba.njit(cache=True, nogil=True)

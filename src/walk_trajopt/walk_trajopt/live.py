@@ -131,8 +131,7 @@ class OptimisedWalk(LivePath):
     def prepare(self) -> None:
         """Lays the floor out for finding other ways."""
         if self._router is None:
-            comfort_m = max(self._config.clearance_m - self._building.walker.radius_m, 0.0)
-            self._router = Router(self._building, comfort_m)
+            self._router = Router(self._building)
         if self._optimiser is not None:
             self._optimiser.router = self._router
 
