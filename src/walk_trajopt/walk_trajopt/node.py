@@ -21,16 +21,18 @@ from walk_ros.conversions import (
     edit_result_from_msg,
     edit_result_to_msg,
 )
+from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
 from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
 from walk_ros.raw import from_bytes
-from walk_ros.results import path_bytes, path_messages
+from walk_ros.results import path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.kept import default_state_dir
 from walk_trajopt.live import LivePath, live_path
 from walk_trajopt.node_inbox import Inbox, Plan
 from walk_trajopt.path import OptimisedPath
+from walk_trajopt.trajectory import Trajectory
 
 
 class TrajoptNode(WalkNode):
@@ -47,6 +49,7 @@ class TrajoptNode(WalkNode):
         self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
         self._path_ns = 0
+        self._owed: tuple[Trajectory, int] | None = None  # with its stamp, not published yet
         self.offer("path", "trajectory", "path_results")
         for topic in ("keypoints", "keypoint_markers", "tour"):
             self.take_in(topic, functools.partial(self._store, topic))
@@ -92,7 +95,7 @@ class TrajoptNode(WalkNode):
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes an empty path and trajectory; the next step solves again, whatever it is about."""
-        self._live, self._solved_for = None, ()
+        self._live, self._solved_for, self._owed = None, (), None
         self.publish_all(path_messages(None, stamp_ns))
 
     def supersedes(self, groups: frozenset[str]) -> bool:
@@ -126,7 +129,7 @@ class TrajoptNode(WalkNode):
             hasty = edit.kind is EditKind.DRAG
             outcome = self._live.move(edit.keypoint, eye_over_floor(building, edit.position), hasty=hasty)
             if outcome.accepted:
-                self._publish(outcome.path, plan, timing)
+                self._publish(outcome.path, plan, timing, hasty=hasty)
                 self.diagnostics.latency(self.now_s() - came_s)
             self._tell(edit, outcome.reason)
 
@@ -143,11 +146,15 @@ class TrajoptNode(WalkNode):
         )
         self.publish("path_results", edit_result_to_msg(result))
 
-    def _publish(self, path: OptimisedPath, plan: Plan, timing: TimingConfig) -> None:
+    def _publish(self, path: OptimisedPath, plan: Plan, timing: TimingConfig, *, hasty: bool = False) -> None:
+        """Publishes a path and its trajectory; in the middle of a drag the trajectory waits, for a second at most."""
         assert self._live is not None
         trajectory = plan.timed(path, self._live.keypoints, timing)
         stamp_ns = self._path_ns = self.revision()
-        self.publish_all(path_bytes(trajectory, stamp_ns))
+        self.publish("path", path_to_bytes(trajectory.t_s, trajectory.positions, trajectory.quat_xyzw, stamp_ns))
+        self._owed = (trajectory, stamp_ns)
+        if not hasty:
+            self._pay()
         sentence = f"{path.length_m:.1f} m in {trajectory.duration_s:.0f} s, {len(path.repaired)} stretches repaired"
         if path.colliding:
             touching = "; ".join(str(stretch) for stretch in path.colliding)
@@ -156,6 +163,16 @@ class TrajoptNode(WalkNode):
             self.diagnostics.state("ready", sentence)
         status = f"{path.solver}: {path.iterations} iterations, cost {path.total_cost:.4g}"
         self.diagnostics.note(solver_status=status, revision_ns=stamp_ns, tour_revision_ns=plan.stamp_ns)
+
+    def publish_diagnostics(self) -> None:
+        """Publishes the state, and the trajectory of a drag that still goes on."""
+        self._pay()
+        super().publish_diagnostics()
+
+    def _pay(self) -> None:
+        owed, self._owed = self._owed, None
+        if owed is not None:
+            self.publish("trajectory", trajectory_to_bytes(*owed))
 
     def _store(self, topic: str, msg: Any) -> None:
         self._inbox.store(topic, msg)
