@@ -26,6 +26,7 @@ UNTIL = {
     "./walk up house.ifc": "a walk past",
     "./walk replay out/house/tour.mcap --start 10": "replaying",
     "./walk up": "a walk past",
+    "./walk up building.ifc --keypoints-file keypoints.csv": "a walk past",
     "./walk up src/walk_bringup/buildings/sample.ifc": "a walk past",
     "./walk run walk_importance importance --ros-args -r __ns:=/walk": "loaded",
     "./walk record --out out/session": "recording",

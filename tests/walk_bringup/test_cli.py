@@ -47,6 +47,7 @@ def test_every_command_in_the_overview_exists() -> None:
         (["plan", "/missing/x.ifc", "--out", "o"], "/missing/x.ifc"),
         (["up", "/missing/x.ifc"], "/missing/x.ifc"),
         (["up", "--frobnicate"], "--frobnicate"),
+        (["up", "--keypoints-file", "missing.csv"], "missing.csv: cannot be read: No such file"),
         (["run", "walk_nothing", "x"], "there is no package 'walk_nothing'"),
     ],
 )

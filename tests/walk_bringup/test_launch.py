@@ -27,7 +27,7 @@ def test_launch_file_describes_every_argument() -> None:
         if isinstance(call.args[0], ast.Constant)
     }
     assert set(declared) == {
-        *("building", "namespace", "params_file", "log_level", "use_sim_time", "respawn"),
+        *("building", "keypoints_file", "namespace", "params_file", "log_level", "use_sim_time", "respawn"),
         *("port", "lan", "viewer_port", "parent_frame", "pose"),
     }
     assert all("description" in keywords and "default_value" in keywords for keywords in declared.values())

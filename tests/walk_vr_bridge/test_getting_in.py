@@ -231,6 +231,7 @@ def test_editors_reach_only_what_is_on_the_list(run, tmp_path):
                 "load.doors",
                 "cache_dir",
                 "state_dir",
+                "keypoints_file",
                 "bridge.lan",
                 "bridge.hosts",
                 "use_sim_time",

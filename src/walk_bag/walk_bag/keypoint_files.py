@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from walk_bag.errors import BagError, ExportError
 from walk_bag.imports import recorded_building
 from walk_bag.storage import read_bag
+from walk_building.building import Building
 from walk_ros.conversions.poses import keypoints_from_msg
 from walk_ros.raw import from_bytes
 from walk_ros.topics import absolute_name
@@ -39,6 +40,10 @@ class ImportedKeypoints:
         """Returns what a person would call a keypoint."""
         label = f" ({self.labels[index]})" if self.labels[index] else ""
         return f"keypoint {index + 1}{label} of {self.source}"
+
+    def eyes_in(self, building: Building) -> NDArray[np.float64]:
+        """Returns the positions (K, 3) in the planner's coordinates of the building [m]."""
+        return building.from_file(self.positions) if self.of_building else self.positions
 
 
 def read_keypoints(path: Path | str) -> ImportedKeypoints:

@@ -31,12 +31,14 @@ COLLECT_S = 0.05
 PREVIEWED = ("path", "trajectory")
 """States that come anew with every move of a hand, each large and replaced by the next."""
 
+PREVIEWS_HZ = 2.0
+"""The default: ten minutes of editing stay under 50 MB; what lies between follows from the edits."""
+
 NICENESS = 10
 """The nodes that answer edits go first."""
 
 EXIT_DISK = 1
 _LOW_HZ, _HIGH_HZ = 0.5, 50.0
-_PREVIEWS_HZ = 2.0  # ten minutes of editing stay under 50 MB; what lies between follows from the edits
 
 
 class Recorder(RawCollector):
@@ -142,7 +144,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
     parser.add_argument(
         "--previews",
         type=float,
-        default=_PREVIEWS_HZ,
+        default=PREVIEWS_HZ,
         metavar="HZ",
         help="keep so many paths and trajectories a second, always the last one; 0 keeps all: a hundred times as large "
         "while somebody drags (default: %(default)g)",

@@ -26,6 +26,9 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(
             "building", default_value="", description="Building file; empty for the sample building."
         ),
+        DeclareLaunchArgument(
+            "keypoints_file", default_value="", description="CSV, JSON or bag of keypoints to begin with; empty: none."
+        ),
         DeclareLaunchArgument("namespace", default_value="walk", description="Namespace of the nodes and topics."),
         DeclareLaunchArgument(
             "params_file",
@@ -60,13 +63,15 @@ def generate_launch_description() -> LaunchDescription:
         "bridge.port": ParameterValue(LaunchConfiguration("port"), value_type=int),
         "bridge.lan": ParameterValue(LaunchConfiguration("lan"), value_type=bool),
     }
+    suggests = {"keypoints_file": ParameterValue(LaunchConfiguration("keypoints_file"), value_type=str)}
+    own = {"importance": [suggests], "vr_bridge": [bridge]}
     nodes = [
         Node(
             package=package,
             executable=name,
             name=name,
             namespace=LaunchConfiguration("namespace"),
-            parameters=[LaunchConfiguration("params_file"), overrides, *([bridge] if name == "vr_bridge" else [])],
+            parameters=[LaunchConfiguration("params_file"), overrides, *own.get(name, [])],
             respawn=LaunchConfiguration("respawn"),
             respawn_delay=1.0,
             arguments=["--ros-args", "--log-level", LaunchConfiguration("log_level")],

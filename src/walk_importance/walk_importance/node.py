@@ -32,6 +32,7 @@ from walk_ros.runner import run_node
 if TYPE_CHECKING:
     from walk_building.building import Building
     from walk_importance.candidates import Candidates
+    from walk_importance.keypoints import Suggestion
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +54,9 @@ class ImportanceNode(WalkNode):
     def __init__(self) -> None:
         super().__init__("importance", {"importance": ImportanceConfig, "keypoints": KeypointConfig})
         self.declare_text("cache_dir", str(default_cache_dir()), "folder of computed maps; empty keeps none")
+        self.declare_text(
+            "keypoints_file", "", "CSV, JSON or bag whose keypoints are suggested; empty: those of the map"
+        )
         self._map: ImportanceMap | None = None
         self._candidates: Candidates | None = None
         self._ready: _Ready | None = None
@@ -79,7 +83,7 @@ class ImportanceNode(WalkNode):
             return
         self._map, self._map_for = early.importance_map, config
         self._publish_map(early.floors_z, walker.eye_height_m)
-        if early.positions is not None and early.quat_xyzw is not None:
+        if early.positions is not None and early.quat_xyzw is not None and not self._keypoints_file:
             self._suggested_for = suggest
             self.publish_all(suggestion_messages(early.positions, early.quat_xyzw, self.revision()))
         self.get_logger().info(f"the map of an earlier start is published, {1e3 * (self.now_s() - began):.0f} ms")
@@ -224,7 +228,10 @@ class ImportanceNode(WalkNode):
         from walk_importance.keypoints import suggest_keypoints
 
         began = self.now_s()
-        suggestion = suggest_keypoints(building, importance_map, config, self._candidates)
+        if self._keypoints_file:
+            suggestion = self._given(building, importance_map, self._keypoints_file)
+        else:
+            suggestion = suggest_keypoints(building, importance_map, config, self._candidates)
         stamp_ns = self.revision()
         self.publish_all(suggestion_messages(suggestion.positions, suggestion.quat_xyzw, stamp_ns))
         self.diagnostics.latency(self.now_s() - began)
@@ -235,8 +242,21 @@ class ImportanceNode(WalkNode):
         self.diagnostics.note(revision_ns=stamp_ns)
         options = self.parameters.get("load", LoadOptions)
         importance = self._map_for
-        if importance is not None:
+        if importance is not None and not self._keypoints_file:
             self._store().keep_start(building, options, importance, config, suggestion)
+
+    @property
+    def _keypoints_file(self) -> str:
+        return str(self.get_parameter("keypoints_file").value)
+
+    def _given(self, building: Building, importance_map: ImportanceMap, file: str) -> Suggestion:
+        """Returns the keypoints of the user's file; raises WalkError where it says something else."""
+        from walk_bag.keypoint_files import read_keypoints
+        from walk_importance.given import given_suggestion
+
+        given = read_keypoints(file)
+        eyes = given.eyes_in(building)
+        return given_suggestion(building, importance_map, eyes, given.quat_xyzw, given.looks, given.source)
 
 
 def main() -> int:

@@ -54,6 +54,13 @@ def _options(arguments: Sequence[str] | None) -> Options:
     parser.add_argument("--rate", type=float, default=pattern.rate_hz, help="edits a second while a keypoint is held")
     parser.add_argument("--stroke", type=float, default=pattern.stroke_s, help="seconds from grab to release")
     parser.add_argument("--rest", type=float, default=pattern.rest_s, help="seconds between two strokes")
+    parser.add_argument(
+        "--insert-every",
+        type=int,
+        default=pattern.insert_every,
+        metavar="STROKES",
+        help="insert a keypoint after so many strokes and undo that (default: never)",
+    )
     parser.add_argument("--seed", type=int, default=_DEFAULT.seed, help="of the moves")
     given = parser.parse_args(arguments)
     return Options(
@@ -64,7 +71,7 @@ def _options(arguments: Sequence[str] | None) -> Options:
         previews_hz=given.previews,
         keep=given.keep,
         points=given.points,
-        pattern=Pattern(rate_hz=given.rate, stroke_s=given.stroke, rest_s=given.rest),
+        pattern=Pattern(rate_hz=given.rate, stroke_s=given.stroke, rest_s=given.rest, insert_every=given.insert_every),
         seed=given.seed,
     )
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from walk_bag.record_bench.figures import Round
 from walk_building.building import Building
-from walk_ros.conversions import EditKind, Outcome
+from walk_ros.conversions import Change, EditKind, Outcome
 from walk_ros.live_bench.figures import match
 from walk_ros.live_bench.hand import Hand
 from walk_ros.live_bench.strokes import stroke
@@ -29,6 +29,13 @@ class Pattern:
     rate_hz: float = 90.0  # drags a second while a keypoint is held
     stroke_s: float = 3.0  # from grab to release
     rest_s: float = 0.3  # from the new path to the next grab
+    insert_every: int = 0  # strokes after which a keypoint is inserted and the insertion undone; 0 for never
+
+    @property
+    def period_s(self) -> float:
+        """Returns the mean time from one grab to the next, without the wait for answers [s]."""
+        rests = 1 + (2 / self.insert_every if self.insert_every else 0)
+        return self.stroke_s + self.rest_s * rests
 
 
 class Editor:
@@ -53,8 +60,13 @@ class Editor:
         self._hand.forget()
         dice = np.random.default_rng(seed)
         ends: list[int] = []
+        others = 0
         for turn in range(strokes):
-            self._stroke(turn, dice)
+            there = self._stroke(turn, dice)
+            if self._pattern.insert_every and (turn + 1) % self._pattern.insert_every == 0:
+                self._change(Change.INSERT, there)
+                self._change(Change.UNDO, there)
+                others += 2
             ends.append(len(self._hand.sent))
         told = self._hand.told()
         begins = [0, *ends[:-1]]
@@ -65,11 +77,12 @@ class Editor:
             recorded=recorded,
             strokes_s=tuple(s for s in latencies if s),
             answers=match(self._hand.sent, told, self._hand.paths),
-            edits=len(self._hand.sent) + 2 * len(ends),
+            edits=len(self._hand.sent) + 2 * len(ends) + others,
             paths=len(self._hand.paths),
         )
 
-    def _stroke(self, turn: int, dice: np.random.Generator) -> None:
+    def _stroke(self, turn: int, dice: np.random.Generator) -> NDArray[np.float64]:
+        """Drags a keypoint out and back; returns the eye position farthest out."""
         hand, pattern = self._hand, self._pattern
         shown = hand.keypoints
         assert shown is not None
@@ -80,10 +93,19 @@ class Editor:
         hand.drag([(_CLIENT, identity, eyes)], pattern.rate_hz)
         hand.pause(0.1)
         stamp_ns = hand.touch(EditKind.RELEASE, identity, eye, _CLIENT)
-        result, _ = hand.wait(lambda: hand.answer(stamp_ns), "the answer to a release", _ANSWER_S, self._check)
+        self._see(stamp_ns)
+        return eyes[len(eyes) // 2]
+
+    def _change(self, change: Change, eye: NDArray[np.float64]) -> None:
+        self._see(self._hand.touch(EditKind.CHANGE, -1, eye, _CLIENT, change))
+
+    def _see(self, stamp_ns: int) -> None:
+        """Waits until an edit is answered and its path is there, then rests."""
+        hand = self._hand
+        result, _ = hand.wait(lambda: hand.answer(stamp_ns), "the answer to an edit", _ANSWER_S, self._check)
         if result.outcome is Outcome.ACCEPTED:
             hand.wait(lambda: max(hand.paths, default=0) > result.revision_ns, "its path", _ANSWER_S, self._check)
-        hand.pause(pattern.rest_s)
+        hand.pause(self._pattern.rest_s)
         hand.raw.clear()
 
     def _there_and_back(self, eye: NDArray[np.float64], dice: np.random.Generator) -> NDArray[np.float64]:

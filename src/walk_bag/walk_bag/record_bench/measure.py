@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from walk_bag.record import PREVIEWS_HZ
 from walk_bag.record_bench.editor import Editor, Pattern
 from walk_bag.record_bench.recorder import RecorderProcess
 from walk_bag.record_bench.report import Measured, pairs_report, session_report
@@ -35,7 +36,7 @@ class Options:
     pairs: int = 8
     seconds: float = 7.0  # of a round, about
     session_s: float = 0.0  # of one recorded session in place of the pairs; 0 for the pairs
-    previews_hz: float = 0.0  # of the recorder; 0 records every path
+    previews_hz: float = PREVIEWS_HZ  # of the recorder; 0 records every path
     keep: str = ""  # where the session's bag is kept; empty for nowhere
     points: int = 100  # that are optimised
     pattern: Pattern = dataclasses.field(default_factory=Pattern)
@@ -45,7 +46,7 @@ class Options:
     def strokes(self) -> int:
         """Returns how many strokes a round, or the session, has."""
         seconds = self.session_s or self.seconds
-        return max(round(seconds / (self.pattern.stroke_s + self.pattern.rest_s)), 1)
+        return max(round(seconds / self.pattern.period_s), 1)
 
 
 def measure(options: Options, say: Say) -> dict[str, Any]:

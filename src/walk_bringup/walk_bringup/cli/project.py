@@ -98,6 +98,7 @@ def open(  # noqa: A001  (the command's name; nothing here opens a file)
             params_file=opened.parameters_file,
             units=None,
             up_axis=None,
+            keypoints_file=None,
             lan=lan,
             port=port,
             viewer_port=viewer_port,

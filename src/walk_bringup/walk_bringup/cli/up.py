@@ -13,6 +13,7 @@ from pathlib import Path
 
 import click
 
+from walk_bag.keypoint_files import read_keypoints
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
@@ -37,6 +38,12 @@ TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, 
 @click.option("--params-file", type=click.Path(path_type=Path), help="YAML of parameters; ./walk params prints one.")
 @click.option("--units", type=UnitOfLength(), help="Unit of a file that does not say it: cm, ft, … or metres.")
 @click.option("--up", "up_axis", type=click.Choice(["y", "z"]), help="The axis that points up in such a file.")
+@click.option(
+    "--keypoints-file",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Begin with the keypoints of FILE, CSV, JSON or a bag, not with suggested ones.",
+)
 @click.option("--lan", is_flag=True, help="Let headsets and other machines in: TLS, a token and a QR code.")
 @click.option("--port", type=click.IntRange(0, 65535), help="Port of the headset page; 0 takes a free one.")
 @click.option("--viewer-port", type=click.IntRange(0, 65535), help="Port that Foxglove may connect to (default: none).")
@@ -48,6 +55,7 @@ def up(
     params_file: Path | None,
     units: float | None,
     up_axis: str | None,
+    keypoints_file: Path | None,
     lan: bool,
     port: int | None,
     viewer_port: int | None,
@@ -66,10 +74,11 @@ def up(
       ./walk up
       ./walk up building.ifc
       ./walk up house.obj --units cm --up y
+      ./walk up building.ifc --keypoints-file keypoints.csv
       ./walk up building.ifc --lan
       ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
     """
-    params = (*load_params(units, up_axis), *bridge_params(lan, port), *params)
+    params = (*load_params(units, up_axis), *keypoint_params(keypoints_file), *bridge_params(lan, port), *params)
     if params_file is None:
         refuse_taken_port(params)
     shared = ros_arguments(building, params_file, namespace, log_level)
@@ -110,6 +119,14 @@ def load_params(units_m: float | None, up_axis: str | None) -> tuple[str, ...]:
     """Returns what the options about the building's file mean as parameters: all nodes read the same file."""
     given = {"units_m": units_m, "up": up_axis}
     return tuple(f"{node}.load.{name}={value}" for name, value in given.items() if value is not None for node in NODES)
+
+
+def keypoint_params(file: Path | None) -> tuple[str, ...]:
+    """Returns what the user's keypoints mean as a parameter; raises WalkError where the file says something else."""
+    if file is None:
+        return ()
+    read_keypoints(file)
+    return (f"importance.keypoints_file={file.resolve()}",)
 
 
 def refuse_taken_port(params: tuple[str, ...]) -> None:

@@ -16,6 +16,7 @@ from rclpy.executors import SingleThreadedExecutor
 
 from walk_building.errors import WalkError
 from walk_ros.conversions import (
+    Change,
     EditKind,
     EditResult,
     KeypointEdit,
@@ -139,9 +140,11 @@ class Hand:
         while (left := until - time.perf_counter()) > 0:
             self._executor.spin_once(timeout_sec=left)
 
-    def touch(self, kind: EditKind, identity: int, eye: NDArray[np.float64], client: str) -> int:
+    def touch(
+        self, kind: EditKind, identity: int, eye: NDArray[np.float64], client: str, change: Change | None = None
+    ) -> int:
         """Publishes one edit; returns its stamp."""
-        stamp_ns, msg = self._message(kind, identity, eye, client)
+        stamp_ns, msg = self._message(kind, identity, eye, client, change)
         if kind is EditKind.RELEASE:
             # What was said about the drags is not read: that would take longer than the answer waited for.
             self._results.clear()
@@ -185,7 +188,9 @@ class Hand:
                 self._executor.spin_once(timeout_sec=left)
             yield divmod(tick, hands)
 
-    def _message(self, kind: EditKind, identity: int, eye: NDArray[np.float64], client: str) -> tuple[int, Any]:
+    def _message(
+        self, kind: EditKind, identity: int, eye: NDArray[np.float64], client: str, change: Change | None = None
+    ) -> tuple[int, Any]:
         self._stamp_ns = max(time.time_ns(), self._stamp_ns + 1)
         edit = KeypointEdit(
             kind=kind,
@@ -194,6 +199,7 @@ class Hand:
             stamp_ns=self._stamp_ns,
             position=eye,
             quat_xyzw=AHEAD,
+            change=change,
         )
         return self._stamp_ns, edit_to_msg(edit)
 

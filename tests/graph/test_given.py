@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: The walkthrough planner's authors
+# SPDX-License-Identifier: Apache-2.0
+"""A graph that begins with the user's keypoints: what `./walk up --keypoints-file` starts."""
+
+import numpy as np
+import pytest
+from graph.processes import settled
+
+from walk_bringup.cli.up import keypoint_params
+from walk_building.walker import Walker
+from walk_ros import conversions as c
+
+pytestmark = pytest.mark.ros
+
+EYE_M = Walker().eye_height_m
+MINE = np.array([[10.0, 2.0, EYE_M], [2.0, 1.5, EYE_M], [6.0, 3.0, EYE_M], [6.0, 1.0, EYE_M]])
+
+
+@pytest.fixture(scope="module")
+def parameter(tmp_path_factory):
+    """The parameter that stands for the file, without its node."""
+    file = tmp_path_factory.mktemp("mine") / "mine.csv"
+    rows = [f"{x},{y},{z},{'180' if k == 0 else ''}" for k, (x, y, z) in enumerate(MINE)]
+    file.write_text("x,y,z,yaw_deg\n" + "\n".join(rows) + "\n30,2,1.6,\n")
+    (given,) = keypoint_params(file)
+    node, _, parameter = given.partition(".")
+    assert node == "importance"
+    return parameter.replace("=", ":=", 1)
+
+
+def test_the_users_keypoints_stand_in_place_of_suggested_ones(graph, observer, parameter):
+    graph.start("importance", parameter)
+    graph.start("sequencer")
+    graph.start("trajopt")
+    path = settled(observer).positions
+    shown = c.keypoints_from_msg(observer.last("keypoints"))
+    near = np.linalg.norm(MINE[:, None] - shown.positions[None], axis=2)
+    assert near.min(axis=1).max() < 1e-3
+    assert all(len(c.keypoints_from_msg(msg).positions) == 5 for msg in observer.heard["suggested_keypoints"])
+    # The first says where it looks; the next, with walls behind it on three sides, looks where most is seen.
+    asked = c.keypoints_from_msg(observer.last("suggested_keypoints"))
+    np.testing.assert_allclose(np.abs(asked.quat_xyzw[0]), [0.0, 0.0, 1.0, 0.0], atol=1e-6)
+    assert not np.allclose(np.abs(asked.quat_xyzw[0]), np.abs(asked.quat_xyzw[1]), atol=1e-3)
+    assert np.linalg.norm(MINE[:, None] - path[None], axis=2).min(axis=1).max() < 0.6
+
+
+def test_the_next_start_without_the_file_has_suggested_ones_again(graph, observer, parameter):
+    graph.kill("importance")
+    before = len(observer.heard["suggested_keypoints"])
+    graph.start("importance")
+    found = c.keypoints_from_msg(observer.after("suggested_keypoints", before, "suggestions"))
+    assert not np.isclose(found.positions[:, None], MINE[None], atol=1e-3).all(axis=2).any()
+
+
+def test_a_file_that_is_gone_is_said_by_the_node(graph, observer, parameter):
+    graph.kill("importance")
+    graph.start("importance", "keypoints_file:=/nowhere/mine.csv")
+    observer.wait(lambda: observer.state("importance").get("state") == "failed", "the node to say what is wrong")
+    assert "/nowhere/mine.csv: cannot be read" in graph.log("importance")
