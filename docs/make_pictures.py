@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the pictures of README.md and docs/ from the sample building into docs/images/.
 
-./walk run is not needed; call it with the environment's Python: .venv/bin/python docs/make_pictures.py
+    ./walk python docs/make_pictures.py
+
 How visibility grows is drawn from docs/images/visibility_growth.json, which `./walk bench growth` prints: it takes
 minutes on a machine that does nothing else.
 """

@@ -211,3 +211,16 @@ def test_the_flat_keeps_its_rooms_in_spite_of_its_furniture(buildings_dir: Path)
     building = load_building(buildings_dir / "small_house.ply")
     assert len({room_at(building, x, y) for x, y in ((-6, -3), (6, -3), (3, 4.9))}) == 3
     assert len(building.rooms) == 3
+
+
+def test_a_podium_that_nobody_reaches_says_how_far_it_is_raised() -> None:
+    building = building_of([*shell(12.0, 8.0), box((6.5, 1.5, 0.0), (11.0, 6.5, 0.6))])
+    (podium,) = [room for room in building.rooms if not room.reachable]
+    assert podium.reason.endswith("raised by 0.60 m above the floor beside it; a step is at most 0.25 m")
+
+
+def test_a_storey_without_a_stair_is_not_called_raised() -> None:
+    building = building_of([*shell(8.0, 6.0), *shell(8.0, 6.0, z=3.0)])
+    (upper,) = [room for room in building.rooms if not room.reachable]
+    assert "heights 3.2 to 3.2 m" in upper.reason
+    assert "raised" not in upper.reason

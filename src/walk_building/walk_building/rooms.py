@@ -8,6 +8,7 @@ import dataclasses
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from walk_building.building import Room
 from walk_building.floor_plan import floor_plan
@@ -22,6 +23,10 @@ _OUTDOORS = "it is outdoors: there is nothing above it"
 _MIN_ROOM_M2 = 0.4
 # A found part that nobody reaches and that is smaller than this is the top of a cupboard, not worth a line.
 _MIN_UNREACHED_ROOM_M2 = 10.0
+# A body that stands beside a podium is so far from whoever stands at its edge.
+_BESIDE_M = 0.7
+# Higher is another storey, not a podium.
+_RAISED_M = 2.0
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,6 +39,7 @@ class _Floor:
     reachable: NDArray[np.bool_]
     place_area_m2: float
     storeys: tuple[Storey, ...]
+    step_m: float
 
 
 def find_rooms(
@@ -49,7 +55,7 @@ def find_rooms(
     model, places, space = ground.model, ground.places, ground.space
     floor = _Floor(
         places=places, clearance_m=ground.clearance_m, component=component, reachable=reachable,
-        place_area_m2=ground.columns.cell_m**2, storeys=ground.storeys,
+        place_area_m2=ground.columns.cell_m**2, storeys=ground.storeys, step_m=ground.step_m,
     )  # fmt: skip
     rooms = [_declared_room(index, space, indoor, model, floor) for index in range(len(model.spaces))]
     left = indoor & (space < 0) & _without_spaces(model, ground.storeys, places[:, 2])
@@ -172,4 +178,22 @@ def _reason(members: NDArray[np.int64], floor: _Floor) -> str:
     return (
         f"no way on foot leads there from where the tour starts: it lies in a separate part of "
         f"{part.sum() * floor.place_area_m2:.0f} m² at heights {z.min():.1f} to {z.max():.1f} m"
+        f"{_raised(floor.places[part], floor)}"
     )
+
+
+def _raised(part: NDArray[np.float64], floor: _Floor) -> str:
+    """By how much a part, its places (n, 3), stands above reached floor beside it: a podium, a stage, a table."""
+    beside = floor.reachable.copy()
+    low, high = part.min(axis=0), part.max(axis=0)
+    low, high = low - [_BESIDE_M, _BESIDE_M, _RAISED_M], high + [_BESIDE_M, _BESIDE_M, 0.0]
+    beside[beside] = ((floor.places[beside] >= low) & (floor.places[beside] <= high)).all(axis=1)
+    if not beside.any():
+        return ""
+    below = floor.places[beside]
+    distance, nearest = cKDTree(below[:, :2]).query(part[:, :2], distance_upper_bound=_BESIDE_M)
+    rise = part[np.isfinite(distance), 2] - below[nearest[np.isfinite(distance)], 2]
+    rise = rise[(rise > floor.step_m) & (rise <= _RAISED_M)]
+    if len(rise) == 0:
+        return ""
+    return f", raised by {rise.min():.2f} m above the floor beside it; a step is at most {floor.step_m:g} m"
