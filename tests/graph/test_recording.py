@@ -13,6 +13,7 @@ from graph.processes import LIMIT_S, Graph, Observer
 
 from walk_bag import read_bag
 from walk_bag.record import main as record
+from walk_bag.record import pace
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes
 from walk_ros.topics import TOPICS, absolute_name
@@ -75,7 +76,7 @@ def recorded(domain, folder, *arguments):
 
 
 def test_every_message_of_a_fast_session_is_in_the_bag_in_order(other_domain, tmp_path):
-    found = recorded(other_domain, tmp_path)
+    found = recorded(other_domain, tmp_path, "--previews", "0")
     assert found["edit_results"] == list(range(1, PATHS + 1))
     # Of a latched topic the middleware itself may leave out what was replaced before it was sent.
     assert found["path"] == sorted(set(found["path"]))
@@ -83,12 +84,17 @@ def test_every_message_of_a_fast_session_is_in_the_bag_in_order(other_domain, tm
     assert len(found["path"]) > 0.8 * PATHS
 
 
-def test_previews_are_thinned_to_the_rate_and_the_last_one_is_kept(other_domain, tmp_path):
-    found = recorded(other_domain, tmp_path, "--previews", "2")
+def test_two_previews_a_second_are_kept_and_the_last_one(other_domain, tmp_path):
+    found = recorded(other_domain, tmp_path)
     assert found["edit_results"] == list(range(1, PATHS + 1))
     assert 2 <= len(found["path"]) <= 12
     assert found["path"] == sorted(set(found["path"]))
     assert found["path"][-1] == PATHS
+
+
+@pytest.mark.parametrize(("hz", "lost_s"), [(0.0, 1.0), (0.5, 2.5), (2.0, 1.0), (50.0, 1.0)])
+def test_a_killed_recorder_loses_a_second_unless_previews_are_rarer(hz, lost_s):
+    assert sum(pace(hz)) == pytest.approx(lost_s)
 
 
 @pytest.mark.parametrize("hz", ["-1", "0.1", "500", "nan"])
@@ -117,7 +123,7 @@ def test_the_measurement_runs_from_start_to_end(graph, rooms, tmp_path):
     assert pairs["edit_to_path_ms"]["without"]["count"] > 0
     assert pairs["recording"]["edits"]["in_bags"] == pairs["recording"]["edits"]["sent"]
     bag = tmp_path / "session"
-    session = bench(graph, str(rooms), "--session", "6", "--previews", "1", "--keep", str(bag))
+    session = bench(graph, str(rooms), "--session", "9", "--previews", "1", "--insert-every", "1", "--keep", str(bag))
     assert session["recording"]["edits"]["in_bags"] == session["recording"]["edits"]["sent"]
     assert session["recording"]["paths"]["in_bags"] < session["recording"]["paths"]["received"]
     assert session["recording"]["mb"] == [round(sum(f.stat().st_size for f in bag.iterdir()) / 1e6, 2)]

@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from walk_bag.record_bench.__main__ import main
+from walk_bag.record_bench.editor import Pattern
 from walk_bag.record_bench.figures import Round, overhead
+from walk_bag.record_bench.measure import Options
 from walk_bag.record_bench.recorder import Recorded
 from walk_bag.record_bench.report import Measured, pairs_report, session_report
 from walk_ros.live_bench.figures import Answers
@@ -72,6 +74,12 @@ def test_the_reports_count_what_was_sent_and_what_is_in_the_bags() -> None:
     assert report["recording"]["cpu_share"] == 0.1
     assert report["recording"]["compressed_to"] == 0.5
     assert session_report(recorded)["goals_met"] == {"session_mb": True}
+
+
+def test_a_session_has_as_many_strokes_as_fit_beside_its_insertions() -> None:
+    """Three strokes of 2.5 s, an insertion and an undo, each with a rest of 10.5 s behind it, are a minute."""
+    pattern = Pattern(stroke_s=2.5, rest_s=10.5, insert_every=3)
+    assert Options(session_s=600.0, pattern=pattern).strokes == 30
 
 
 def test_a_building_that_is_not_there_is_said(capsys: pytest.CaptureFixture[str]) -> None:

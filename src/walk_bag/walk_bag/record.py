@@ -15,7 +15,7 @@ from pathlib import Path
 
 from walk_bag import parameter_watch
 from walk_bag.errors import BagError
-from walk_bag.spool import Spool
+from walk_bag.spool import FLUSH_S, Spool
 from walk_bag.storage import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.raw import RawCollector, policies
@@ -70,8 +70,9 @@ class Recorder(RawCollector):
         super().__init__("record", topics, depth=QUEUE_DEPTH)
         # From here on: the middleware's own threads, begun above, must take every message in before the next.
         yield_to_others()
-        self._spool = Spool(writer, self._stop)
-        self.create_timer(1.0 / previews_hz if previews_hz else COLLECT_S, self._take)
+        collect_s, flush_s = pace(previews_hz)
+        self._spool = Spool(writer, self._stop, flush_s)
+        self.create_timer(collect_s, self._take)
         if parameter_watch.TOPIC in topics:
             self._watch = parameter_watch.ParameterWatch(self, namespace, self._take_parameters)
         self.get_logger().info(f"recording {len(topics)} topics to {writer.path}; Ctrl-C ends it")
@@ -120,6 +121,15 @@ class Recorder(RawCollector):
             self.get_logger().warning(f"{topic}: the publisher's type is {sent}, the bag names {kept}")
 
 
+def pace(previews_hz: float) -> tuple[float, float]:
+    """Returns how long messages are collected and how long they then wait to be flushed, at most [s].
+
+    Together that is FLUSH_S, what a killed recorder may lose, unless previews are rarer.
+    """
+    collect_s = 1.0 / previews_hz if previews_hz else COLLECT_S
+    return collect_s, max(FLUSH_S - collect_s, FLUSH_S / 2)
+
+
 def yield_to_others() -> None:
     """Lets every other process go before this thread, and before those that it begins from now on."""
     with contextlib.suppress(OSError):
@@ -146,7 +156,7 @@ def parse(argv: Sequence[str]) -> argparse.Namespace:
         type=float,
         default=PREVIEWS_HZ,
         metavar="HZ",
-        help="keep so many paths and trajectories a second, always the last one; 0 keeps all: a hundred times as large "
+        help="keep so many paths and trajectories a second, always the last one; 0 keeps all: fifteen times as large "
         "while somebody drags (default: %(default)g)",
     )
     options = parser.parse_args(argv)
