@@ -10,7 +10,6 @@ import { Files } from "./loader";
 import { keypointsFromMarkers } from "./markers";
 import { GROUPS, keepParameters, readParameters } from "./parameters";
 import { rawBytes, readPath, readTour } from "./path";
-import { applyProfile, type Profile } from "./playback";
 import { keepSettings, storedSettings } from "./settings";
 import { initialState, Store } from "./store";
 import { BROWSER_CLOCK, Wire, type Clock, type SocketLike, type WireListener } from "./wire";
@@ -26,7 +25,6 @@ export class Client implements WireListener {
   private readonly desk: EditDesk;
   private readonly loader: Files;
   private namespace = "/walk";
-  private profile: Profile | null = null;
 
   constructor(
     makeSocket: () => SocketLike,
@@ -141,8 +139,6 @@ export class Client implements WireListener {
     on("bridge/files", "std_msgs/String", (message) => this.loader.announced(answers.files(message)));
     on("bridge/session", "std_msgs/String", (message) => store.set("session", answers.session(message)));
     on("/diagnostics", "diagnostic_msgs/DiagnosticArray", (message) => this.takeStatuses(message));
-    const profile = { type: "std_msgs/String", compression: "cbor", optional: true } as const;
-    wire.subscribe(this.name("bridge/profile"), profile, (message) => this.takeProfile(answers.profile(message)));
     for (const topic of ["playback/seek", "playback/speed"]) wire.advertise(this.name(topic), SEEK_TYPE);
     wire.advertise(this.name("keypoint_edits"), "visualization_msgs/InteractiveMarkerFeedback");
     wire.advertise(this.name("study_events"), "diagnostic_msgs/DiagnosticArray");
@@ -152,7 +148,6 @@ export class Client implements WireListener {
     const { path } = this.store.state;
     try {
       readPath(rawBytes(message), path);
-      if (this.profile) applyProfile(path, this.profile);
     } finally {
       this.store.touch("path");
     }
@@ -161,12 +156,6 @@ export class Client implements WireListener {
   private takeTour(message: unknown): void {
     readTour(rawBytes(message), this.store.state.tour);
     this.store.touch("tour");
-  }
-
-  /** A profile may come before its path: it is kept until then. */
-  private takeProfile(profile: Profile): void {
-    this.profile = profile;
-    if (applyProfile(this.store.state.path, profile)) this.store.touch("path");
   }
 
   private takeStatuses(message: unknown): void {
