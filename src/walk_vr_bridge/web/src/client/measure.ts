@@ -30,10 +30,13 @@ const BODY_M = [0.35, 0.95] as const;
 export const FAR_M = 0.62;
 const FLOOR_MOST_M = 4;
 const ROWS_A_TURN = 16;
+/** So often what has been measured so far is shown. */
+const TELL_MS = 500;
 
 export class PathMeasurer {
   private revision = "";
   private row = 0;
+  private toldMs = 0;
 
   constructor(
     private readonly store: Store,
@@ -50,6 +53,7 @@ export class PathMeasurer {
     if (path.revision !== this.revision) {
       this.revision = path.revision;
       this.row = 0;
+      this.toldMs = this.now();
     }
     if (this.row >= path.count) return;
     const { radiusM } = building.walker;
@@ -58,7 +62,10 @@ export class PathMeasurer {
       const stop = Math.min(path.count, this.row + ROWS_A_TURN);
       for (; this.row < stop; this.row++) measureRow(path, this.row, obstacles, radiusM);
     }
-    if (this.row >= path.count) this.store.touch("path");
+    const now = this.now();
+    if (this.row < path.count && now < this.toldMs + TELL_MS) return;
+    this.toldMs = now;
+    this.store.touch("path");
   }
 }
 
