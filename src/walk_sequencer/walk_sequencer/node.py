@@ -28,6 +28,8 @@ from walk_sequencer.wishes import Wish
 class SequencerNode(WalkNode):
     """Publishes keypoints, markers, legs and the tour; answers every edit."""
 
+    niceness = 10
+
     def __init__(self) -> None:
         super().__init__("sequencer", {"sequencer": SequencerConfig, "editing": EditingConfig})
         self.declare_text("state_dir", str(default_state_dir()), "folder for the journal of edits")
