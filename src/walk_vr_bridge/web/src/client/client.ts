@@ -13,6 +13,7 @@ import { rawBytes, readPath, readTour } from "./path";
 import { keepSettings, storedSettings } from "./settings";
 import { initialState, Store } from "./store";
 import { BROWSER_CLOCK, Wire, type Clock, type SocketLike, type WireListener } from "./wire";
+import { openInWorker } from "./worker_socket";
 
 const ADMISSION_AGAIN_MS = 2000;
 /** Others may change parameters too, and no topic says so. */
@@ -182,7 +183,7 @@ export class Client implements WireListener {
 export async function browserClient(): Promise<Client> {
   await useAddressToken(window.location, window.history);
   const secret = clientSecret(window.sessionStorage);
-  const client = new Client(() => new WebSocket(socketUrl(window.location, secret)) as unknown as SocketLike);
+  const client = new Client(() => openInWorker(socketUrl(window.location, secret)));
   client.store.set("settings", storedSettings(window.localStorage));
   client.store.subscribe("settings", () => keepSettings(window.localStorage, client.store.state.settings));
   return client;
