@@ -21,6 +21,7 @@ export type FromWorker =
 /** What of a worker is used; tests put their own in its place. */
 export interface WorkerLike {
   onmessage: ((event: { data: FromWorker }) => void) | null;
+  onerror: (() => void) | null;
   postMessage(message: ToWorker): void;
   terminate(): void;
 }
@@ -41,6 +42,8 @@ export class WorkerSocket implements SocketLike {
     private readonly worker: WorkerLike,
   ) {
     worker.onmessage = ({ data }) => this.heard(data);
+    // Its script cannot be had while the bridge is gone, unless the browser has kept it: as a connection that fails.
+    worker.onerror = () => this.heard({ what: "close", code: 1006, reason: "" });
     worker.postMessage({ what: "open", url });
   }
 

@@ -5,6 +5,7 @@ import { WorkerSocket, type ToWorker, type WorkerLike } from "../../src/client/w
 
 class FakeWorker implements WorkerLike {
   onmessage: WorkerLike["onmessage"] = null;
+  onerror: WorkerLike["onerror"] = null;
   readonly asked: ToWorker[] = [];
   ended = false;
   postMessage(message: ToWorker): void {
@@ -38,6 +39,12 @@ describe("a socket in a worker", () => {
       { what: "send", text: "{}" },
     ]);
     expect(told).toEqual(["open", "hello"]);
+  });
+
+  it("is closed where its worker cannot begin, so that another is tried", () => {
+    const { worker, socket, told } = setUp();
+    worker.onerror!();
+    expect([socket.readyState, worker.ended, told.at(-1)]).toEqual([3, true, [1006, ""]]);
   });
 
   it("ends its worker once it is closed, and closes once", () => {
