@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 /**
- * A WebSocket that listens in a worker. A browser that draws frame after frame lets the sockets of the page itself wait, a path
- * for two frames and more; what a worker posts comes between two frames.
+ * A WebSocket that listens in a worker: a browser that draws frame after frame lets the sockets of the page itself wait, see
+ * docs/design.md.
  */
 
 import type { SocketLike } from "./wire";
