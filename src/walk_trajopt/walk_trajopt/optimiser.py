@@ -168,6 +168,18 @@ class Optimiser:
         self._solution = tried.solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
+    def rehearse(self) -> None:
+        """Does once what an edit may need and drops what comes of it: code is slow the first time it runs."""
+        state, solution = self.state, self._solution
+        for keypoint in np.flatnonzero(~state.pinned)[:1].tolist():
+            for hasty in (True, False):
+                self.move_keypoint(keypoint, state.keypoints[keypoint], hasty=hasty)
+        self.state, self._solution = state, solution
+        middle_m = 0.5 * state.tour.length_m
+        self._guard.mended(state, 0, len(state.x) - 1, [(middle_m, middle_m)], self.pieces, self._hasty)
+        if self.router is not None and len(state.keypoints):
+            self.router.way(state.keypoints[0], state.keypoints[-1])
+
     def revise(
         self, polyline: ArrayLike, keypoints: ArrayLike, came_from: NDArray[np.int64], locked: ArrayLike | None = None
     ) -> bool:
