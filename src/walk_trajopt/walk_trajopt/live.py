@@ -133,7 +133,7 @@ class OptimisedWalk(LivePath):
         if self._router is None:
             self._router = Router(self._building)
             if self._optimiser is not None:
-                self._optimiser.router = self._router
+                self._optimiser.mover.router = self._router
                 self._optimiser.rehearse()
 
     @property
