@@ -22,7 +22,7 @@ from walk_sequencer.journal import Journal
 
 pytestmark = [pytest.mark.ros, pytest.mark.slow]
 
-KILLS = int(os.environ.get("WALK_KILLS", "20"))
+KILLS = int(os.environ.get("WALK_KILLS", "10"))
 PULL_M = 0.26  # a body's radius: by so much a keypoint is pulled off a wall
 MOST = 9  # keypoints, so that planning stays short
 SHOWN = {"sequencer": "keypoint_markers", "trajopt": "path", "importance": "suggested_keypoints"}
