@@ -91,6 +91,12 @@ async def serving(folder, lan=False, hosts=""):
         await server.stop()
 
 
+async def status(request):
+    """Returns the status of the answer to a request."""
+    async with request as response:
+        return response.status
+
+
 async def receive(ws, limit_s=5.0):
     """Returns the next message of a WebSocket; JSON as values, binary as bytes, else the close code."""
     message = await ws.receive(limit_s)

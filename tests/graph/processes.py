@@ -95,17 +95,18 @@ LATCHED = (
 
 
 class Observer:
-    """A node that hears every topic."""
+    """A node that hears every topic, or those named."""
 
-    def __init__(self, domain, name="observer"):
+    def __init__(self, domain, name="observer", topics=tuple(TOPICS)):
         self.context = rclpy.Context()
         with _environment(ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST"):
             rclpy.init(context=self.context, domain_id=domain)
         self.node = rclpy.create_node(name, context=self.context)
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
-        self.heard = {topic: [] for topic in TOPICS}
-        for topic, spec in TOPICS.items():
+        self.heard = {topic: [] for topic in topics}
+        for topic in topics:
+            spec = TOPICS[topic]
             self.node.create_subscription(spec.type, absolute_name(topic), self.heard[topic].append, spec.qos)
         spec = TOPICS["keypoint_edits"]
         self.edits = self.node.create_publisher(spec.type, absolute_name("keypoint_edits"), spec.qos)

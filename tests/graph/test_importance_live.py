@@ -20,8 +20,16 @@ SUGGESTED = "suggested_keypoints"
 @pytest.fixture(scope="module")
 def running(graph, observer):
     graph.start("importance")
-    observer.wait(lambda: observer.state("importance").get("state") == "ready", "suggestions")
+    observer.wait(lambda: at_rest(observer), "suggestions, and the last map before them")
     return graph
+
+
+def at_rest(observer):
+    """Whether the node is done and all that it has published is heard: a big map may come behind the diagnostics."""
+    state, heard = observer.state("importance"), [observer.last(topic) for topic in MAP_TOPICS]
+    if state.get("state") != "ready" or None in heard:
+        return False
+    return {stamp_from_msg(msg.header.stamp) for msg in heard} == {int(state["map_revision_ns"])}
 
 
 def counts(observer, *topics):

@@ -1,138 +1,165 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""From a controller's release to the new path on the screen, the whole loop: browser, bridge, DDS, planner and back.
+"""`./walk bench release`: from a controller's release to the new path on the screen, hop by hop, as JSON.
 
-Prints JSON. `python tests/page/bench_release.py [RELEASES]` with the packages on the path, as for the tests.
+Browser, bridge, DDS, planner and back, on the small made building. Needs Chromium and Node, as the page's tests do.
 """
 
+import argparse
 import json
-import shutil
 import sys
 import tempfile
+import threading
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
+from graph.domains import own_domain
+from graph.processes import Observer
 from graph.rooms import make_rooms
-from page.browser import BridgedGraph, Browser
+from page.browser import BridgedGraph, Browser, find_tools
+
+from walk_ros.conversions import EditKind, edit_from_msg
 
 GOAL_P50_MS, GOAL_P95_MS = 25.0, 60.0
-DOMAIN = 101
-WARM_UP = 2
+WARM_UP = 3
 """Releases that are not counted: compiled code and caches come in."""
 
-LIMIT_MS = 240_000
-"""No release is begun after this long; what is counted is told."""
+LIMIT_S = 150.0
+"""No release is begun after this long; how many were counted is told."""
 
-# The clock starts when the trigger lets go and stops when the frame with the new path has been handed to the graphics
-# system. In between the emulator, like a real headset, tells the page of the trigger at the next frame.
+# The clock starts when the trigger lets go and stops when the frame that shows the path of that edit, or a later path,
+# has been drawn: a pixel of it can be read. In between the emulator, like a real headset, tells the page of the trigger
+# at the next frame. All stamps are of the one clock of this machine [ms since 1970].
 RELEASES = """
-  const { store } = walk.client;
+  const { client } = walk;
+  const { store, actions } = client;
   const id = store.state.keypoints[1].id;
-  let fresh = 0;
-  let drawn = null;
-  let [sent, came] = [NaN, NaN];
-  store.subscribe("path", () => {
-    if (fresh !== 1 || Number.isNaN(sent)) return;
-    fresh = 2;
-    came = performance.now();
+  const now = () => performance.timeOrigin + performance.now();
+  const came = {}, drawn = [], answers = {};
+  store.subscribe("path", () => (came[store.state.path.revision] ??= now()));
+  const told = { type: "diagnostic_msgs/DiagnosticStatus" };
+  client.wire.subscribe("/walk/path_results", told, ({ values }) => {
+    const answer = Object.fromEntries(values.map(({ key, value }) => [key, value]));
+    answers[answer.edit_stamp_ns] = answer;
   });
-  const { actions } = walk.client;
-  const release = actions.release.bind(actions);
-  actions.release = (...what) => {
-    sent = performance.now();
-    return release(...what);
-  };
-  const { renderer, scene } = walk.view;
+  const { renderer } = walk.view;
+  const gl = renderer.getContext();
+  const pixel = new Uint8Array(4);
   const render = renderer.render.bind(renderer);
+  let shown = "", counted = 0, frames = 0;
   renderer.render = (...what) => {
     render(...what);
-    if (fresh === 2) { renderer.getContext().finish(); fresh = 3; drawn(performance.now()); }
+    frames += 1;
+    const { revision } = store.state.path;
+    if (revision === shown) return;
+    shown = revision;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+    drawn.push([revision, now()]);
   };
-  // Until no path has come for some frames, for 60 at most: a planner that never rests is told, not waited for.
-  let restless = 0;
-  const settle = async (frames) => {
-    for (let still = 0, all = 0, last = ""; still < frames; still++) {
-      if (store.state.path.revision !== last) { still = 0; last = store.state.path.revision; }
-      if (++all > 60) { restless += 1; return; }
-      await hands.frames(1);
-    }
+  let row = {};
+  const release = actions.release.bind(actions);
+  actions.release = (...what) => {
+    row.sent = now();
+    const confirmed = release(...what);
+    confirmed.then(({ label }) => Object.assign(row, { label, answered: now() }));
+    return confirmed;
   };
-  const quiet = async () => {
-    await hands.until(() => store.state.connection.unconfirmed === 0, "the answer");
-    await settle(12);
-  };
-  const times = [];
-  const parts = [];
+  const rest = (ms) => new Promise((done) => setTimeout(done, ms));
+  const rows = [];
   const began = performance.now();
-  let missed = 0;
   for (let round = 0; round < COUNT && performance.now() - began < LIMIT_MS; round++) {
-    await quiet();
+    await hands.answered();
+    await rest(300);
     const from = hands.shown(id);
     await hands.reach("right", from);
     await hands.button("right", "trigger", 1);
     const way = round % 2 ? -0.012 : 0.012;
     await hands.carry("right", from, [from[0] + way, from[1], from[2]], 5);
-    await settle(6);
     // Not always at the same moment of a frame.
-    await new Promise((done) => setTimeout(done, Math.random() * 17));
-    const done = new Promise((resolve) => { drawn = resolve; });
-    fresh = 1;
-    sent = came = NaN;
-    const start = performance.now();
+    await rest(120 + 17 * Math.random());
+    row = { start: now() };
     hands.device.controllers.right.updateButtonValue("trigger", 0);
-    const late = new Promise((resolve) => setTimeout(() => resolve(NaN), 2000));
-    const end = await Promise.race([done, late]);
-    if (Number.isNaN(end)) missed += 1;
-    else {
-      times.push(end - start);
-      parts.push([sent - start, came - sent, end - came]);
-    }
-    fresh = 0;
-    await hands.frames(3);
+    const one = row;
+    await hands.until(() => one.answered, "the answer");
+    await rest(200);
+    rows.push({ ...one, paths: Object.values(came).filter((at) => at > one.start + 300).length });
   }
-  const frameStart = performance.now();
+  [frames, counted] = [0, performance.now()];
   await hands.frames(60);
-  const frameMs = (performance.now() - frameStart) / 60;
-  actions.release = release;
-  return { times, parts, missed, restless, frameMs, refused: store.state.refusals.length };
+  const frameMs = (performance.now() - counted) / frames;
+  return { rows, came, drawn, answers, frameMs };
 """
 
 
+class Listener(Observer):
+    """Hears in a thread of its own when the bridge let each release go on."""
+
+    def __init__(self, domain):
+        super().__init__(domain, topics=("keypoint_edits",))
+        threading.Thread(target=self.executor.spin, daemon=True).start()
+
+    def releases_ms(self):
+        edits = [edit_from_msg(msg) for msg in self.heard["keypoint_edits"]]
+        return [edit.stamp_ns / 1e6 for edit in edits if edit.kind is EditKind.RELEASE]
+
+
 def measure(count):
-    """Returns the figures of `count` releases on the small made building."""
-    browser = Browser(shutil.which("node"), shutil.which("chromium"))
-    with tempfile.TemporaryDirectory() as folder:
-        graph = BridgedGraph(DOMAIN, Path(folder), make_rooms(Path(folder) / "rooms.ply"))
+    """Returns what the page and the listener have seen of `count` releases."""
+    browser = Browser(*find_tools())
+    with tempfile.TemporaryDirectory() as folder, own_domain() as domain:
+        graph = BridgedGraph(domain, Path(folder), make_rooms(Path(folder) / "rooms.ply"))
+        listener = Listener(domain)
         try:
             graph.start_all()
             page = browser.open(graph.url)
             page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
-            result = page.js(RELEASES.replace("COUNT", str(WARM_UP + count)).replace("LIMIT_MS", str(LIMIT_MS)))
+            seen = page.js(RELEASES.replace("COUNT", str(count)).replace("LIMIT_MS", str(1000 * LIMIT_S)))
+            seen["passed_on"] = listener.releases_ms()
         finally:
             graph.close()
             browser.close()
-    waits, planner, drawing = np.median(result["parts"][WARM_UP:], axis=0)
-    p50, p95 = np.percentile(result["times"][WARM_UP:], [50, 95])
+            listener.close()
+    return seen
+
+
+def hops(seen):
+    """Returns the times of each release whose path came [ms], (releases, 7): five hops, the whole, the confirmation."""
+    rows = []
+    for row, passed_on in zip(seen["rows"], seen["passed_on"], strict=True):
+        answer = seen["answers"].get(str(row["label"]), {})
+        revision = answer.get("revision_ns", "")
+        came = seen["came"].get(revision)
+        drawn = next((at for shown, at in seen["drawn"] if shown >= revision), None)
+        if answer.get("outcome") != "followed" or came is None or drawn is None:
+            continue
+        at = [row["start"], row["sent"], passed_on, int(revision) / 1e6, came, max(drawn, came)]
+        rows.append([*np.diff(at), at[-1] - at[0], row["answered"] - row["start"]])
+    return np.array(rows)
+
+
+def report(seen):
+    """Returns the figures."""
+    names = ("until_the_page_hears_of_the_trigger", "page_to_bridge", "bridge_to_path", "path_to_page", "path_to_frame")
+    rows = hops(seen)[WARM_UP:]
+    p50, p95 = np.percentile(rows, [50, 95], axis=0)
     return {
-        "releases": len(result["times"]) - WARM_UP,
-        "refused": result["refused"],
-        "missed": result["missed"],
-        "restless": result["restless"],
-        "frame_ms": round(result["frameMs"], 1),
-        "release_to_path_p50_ms": round(float(p50), 1),
-        "release_to_path_p95_ms": round(float(p95), 1),
-        "p50_of_parts_ms": {
-            "until_the_page_hears_of_the_trigger": round(float(waits), 1),
-            "bridge_graph_and_back": round(float(planner), 1),
-            "until_it_is_drawn": round(float(drawing), 1),
+        "releases": len(rows),
+        "without_a_path": len(seen["rows"]) - WARM_UP - len(rows),
+        "frame_ms": round(seen["frameMs"], 1),
+        "release_to_drawn": {"p50_ms": round(p50[5], 1), "p95_ms": round(p95[5], 1)},
+        "to_goal": {"p50": round(p50[5] / GOAL_P50_MS, 2), "p95": round(p95[5] / GOAL_P95_MS, 2)},
+        "hops": {
+            name: {"p50_ms": round(p50[k], 1), "p95_ms": round(p95[k], 1)} for k, name in enumerate(names)
         },
-        "p50_to_goal": round(float(p50) / GOAL_P50_MS, 2),
-        "p95_to_goal": round(float(p95) / GOAL_P95_MS, 2),
-    }
+        "release_to_confirmed": {"p50_ms": round(p50[6], 1), "p95_ms": round(p95[6], 1)},
+        "releases_with_a_path_later_than_300_ms": sum(row["paths"] > 0 for row in seen["rows"][WARM_UP:]),
+    }  # fmt: skip
 
 
 if __name__ == "__main__":
-    print(json.dumps(measure(int(sys.argv[1]) if len(sys.argv) > 1 else 50), indent=2))
+    parser = argparse.ArgumentParser(prog="./walk bench release", description=__doc__.splitlines()[0])
+    parser.add_argument("--releases", type=int, default=50, help="that are counted (default: %(default)s)")
+    print(json.dumps(report(measure(WARM_UP + parser.parse_args().releases)), indent=2))

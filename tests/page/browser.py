@@ -4,17 +4,25 @@
 
 import json
 import re
+import shutil
 import subprocess
 import time
 from pathlib import Path
 
 from graph.processes import LIMIT_S, Graph
 
+from walk_bringup.check.browser import find_browser
+
 ROOT = Path(__file__).resolve().parents[2]
 WEB = ROOT / "src" / "walk_vr_bridge" / "web"
 STATIC = ROOT / "src" / "walk_vr_bridge" / "walk_vr_bridge" / "static"
 DRIVER = Path(__file__).with_name("driver.mjs")
 WIDTH, HEIGHT = 320, 200
+
+
+def find_tools():
+    """Returns the paths of Node and Chromium, None for what is not there."""
+    return shutil.which("node"), find_browser()
 
 
 class Browser:
@@ -34,8 +42,11 @@ class Browser:
         assert "error" not in answer, answer["error"]
         return answer["value"]
 
-    def open(self, url, *, headset=True, width=WIDTH, height=HEIGHT):
-        return Page(self, self.ask(op="open", url=url, headset=headset, width=width, height=height))
+    def open(self, url, *, headset=True, width=WIDTH, height=HEIGHT, density=1):
+        """Opens a tab; a headset's without smooth edges, unless it is for a picture, of a density of 2."""
+        url = f"{url}/?plain" if headset and density == 1 else url
+        opened = self.ask(op="open", url=url, headset=headset, width=width, height=height, density=density)
+        return Page(self, opened)
 
     def close(self):
         self._process.stdin.close()
@@ -73,6 +84,10 @@ class Page:
 
     def key(self, key):
         self._browser.ask(op="key", page=self._number, key=key)
+
+    def devtools(self, method, **params):
+        """Sends a command of the Chrome DevTools Protocol; returns its answer."""
+        return self._browser.ask(op="devtools", page=self._number, method=method, params=params)
 
     def said(self):
         """Errors that the page has put on its console."""

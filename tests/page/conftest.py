@@ -2,18 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page in a real browser with an emulated headset, before the real bridge, DDS and planner nodes."""
 
-import shutil
-
 import pytest
 from graph.domains import own_domain
 from graph.rooms import make_rooms
-from page.browser import STATIC, WEB, BridgedGraph, Browser
+from page.browser import STATIC, WEB, BridgedGraph, Browser, find_tools
 
 
 @pytest.fixture(scope="session")
 def browser():
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-    node = shutil.which("node")
+    node, chromium = find_tools()
     if chromium is None:
         pytest.skip("there is no chromium; Debian's package of that name serves")
     if node is None:

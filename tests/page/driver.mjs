@@ -29,8 +29,9 @@ const pages = new Map();
 let serial = 0;
 
 const operations = {
-  async open({ url, headset, width, height }) {
-    const context = await browser.newContext({ viewport: { width, height }, ignoreHTTPSErrors: true });
+  async open({ url, headset, width, height, density }) {
+    const viewport = { width, height };
+    const context = await browser.newContext({ viewport, deviceScaleFactor: density, ignoreHTTPSErrors: true });
     const page = await context.newPage();
     const id = ++serial;
     const held = { page, said: [] };
@@ -48,11 +49,18 @@ const operations = {
   },
   // Runs the body of an async function in the page and returns what it returns.
   js: ({ page, code }) => pages.get(page).page.evaluate(`(async () => { ${code} })()`),
-  shot: ({ page, file }) => pages.get(page).page.screenshot({ path: file }).then(() => null),
+  shot: ({ page, file }) =>
+    pages.get(page).page.screenshot({ path: file, scale: "css" }).then(() => null),
   mouse: async ({ page, steps }) => {
     const { mouse } = pages.get(page).page;
     for (const [what, ...values] of steps) await mouse[what](...values);
     return null;
+  },
+  // A command of the Chrome DevTools Protocol: the heap as the engine itself counts it.
+  async devtools({ page, method, params }) {
+    const held = pages.get(page);
+    held.devtools ??= await held.page.context().newCDPSession(held.page);
+    return held.devtools.send(method, params);
   },
   key: ({ page, key }) => pages.get(page).page.keyboard.press(key).then(() => null),
   said: async ({ page }) => pages.get(page).said,

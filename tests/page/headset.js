@@ -3,6 +3,23 @@
 // Runs in the page before its own scripts: a headset that is not there, and hands that tests move. Places are those of the
 // room in metres, as [x, y, z], unless they are called map.
 (() => {
+  // Before each frame the emulator asks the graphics system for three values. A question waits until the frame before has been
+  // drawn, which no headset does, and in software that is most of the time: what the page hears then waits, too.
+  const gl = WebGL2RenderingContext.prototype;
+  const { getParameter } = gl;
+  const values = new WeakMap();
+  for (const [setter, name] of [["clearColor", 0x0c22], ["clearDepth", 0x0b73], ["clearStencil", 0x0b91]]) {
+    const set = gl[setter];
+    gl[setter] = function (...given) {
+      if (!values.has(this)) values.set(this, new Map());
+      values.get(this).set(name, given.length > 1 ? new Float32Array(given) : given[0]);
+      return set.apply(this, given);
+    };
+  }
+  gl.getParameter = function (name) {
+    return values.get(this)?.get(name) ?? getParameter.call(this, name);
+  };
+
   const device = new IWER.XRDevice(IWER.metaQuest3);
   device.installRuntime({ forceInstall: true });
   device.stereoEnabled = true;

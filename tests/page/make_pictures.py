@@ -5,14 +5,13 @@
 `python tests/page/make_pictures.py [FOLDER]` with the packages on the path, as for the tests; docs/images by default.
 """
 
-import shutil
 import sys
 import tempfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from page.browser import ROOT, BridgedGraph, Browser
+from page.browser import ROOT, BridgedGraph, Browser, find_tools
 from page.desk import Desk
 
 from walk_bringup.sample import sample_path
@@ -23,7 +22,7 @@ DESKTOP, HEADSET = (1280, 800), (1200, 750)
 
 def of_desktop(browser, graph, folder):
     """The model with its tour, and the plan of the lower storey."""
-    page = browser.open(graph.url, headset=False, width=DESKTOP[0], height=DESKTOP[1])
+    page = browser.open(graph.url, headset=False, width=DESKTOP[0], height=DESKTOP[1], density=2)
     desk = Desk(page)
     page.js("walk.client.actions.showStorey(0); walk.client.actions.set({ pathColour: 'speed' })")
     for view, name in (("orbit", "desktop"), ("plan", "plan_view")):
@@ -35,7 +34,7 @@ def of_desktop(browser, graph, folder):
 
 def of_headset(browser, graph, folder):
     """What one eye sees: the room, the miniature in front, the panel at the side."""
-    page = browser.open(graph.url, width=HEADSET[0], height=HEADSET[1])
+    page = browser.open(graph.url, width=HEADSET[0], height=HEADSET[1], density=2)
     page.js("""
       await hands.until(() => window.walk, "the page");
       hands.device.stereoEnabled = false;
@@ -59,7 +58,7 @@ def of_headset(browser, graph, folder):
 def main(folder):
     """Starts graph and browser and takes all pictures."""
     folder.mkdir(parents=True, exist_ok=True)
-    browser = Browser(shutil.which("node"), shutil.which("chromium"))
+    browser = Browser(*find_tools())
     with tempfile.TemporaryDirectory() as state:
         graph = BridgedGraph(DOMAIN, Path(state), sample_path())
         try:

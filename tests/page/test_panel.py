@@ -157,18 +157,49 @@ def test_play_pause_seek_speed_and_stop(desk):
     desk.click('[data-id="speed"] [data-value="1"]')
 
 
-def test_the_headsets_picture_is_drawn_only_when_something_changes(desk):
+FRAMES = """
+  const draw = async (frames, each = () => {}) => {
+    const drawn = walk.room.panel.drawn;
+    for (let i = 0; i < frames; i++) {
+      await new Promise(requestAnimationFrame);
+      each(i);
+      walk.room.panel.update(0.01);
+    }
+    return walk.room.panel.drawn - drawn;
+  };
+"""
+
+
+@pytest.fixture
+def picture(desk):
+    """The headset's panel beside a desktop, once what the planner answers to the tests before has come."""
     desk.page.js("walk.room.panel.group.visible = true")
-    frames = """
-      const drawn = walk.room.panel.drawn;
-      for (let i = 0; i < 30; i++) {
-        await new Promise(requestAnimationFrame);
-        walk.room.panel.update(0.01);
-      }
-      return walk.room.panel.drawn - drawn;
-    """
-    # What the planner answers to the tests before may still be on its way.
-    desk.page.until(f"await (async () => {{ {frames} }})() === 0", "thirty frames in which nothing is drawn")
-    drawn = desk.page.js(f"walk.client.actions.select(desk.state.keypoints[0].id); {frames}")
+    desk.page.until(f"await (async () => {{ {FRAMES} return draw(60); }})() === 0", "frames in which nothing is drawn")
+    yield desk.page
     desk.page.js("walk.client.actions.select(null); walk.room.panel.group.visible = false")
-    assert 1 <= drawn < 30
+
+
+def test_the_headsets_picture_is_drawn_only_when_something_changes(picture):
+    drawn = picture.js(f"{FRAMES} walk.client.actions.select(desk.state.keypoints[0].id); return draw(60);")
+    assert 1 <= drawn < 10
+
+
+def test_the_headsets_picture_is_not_drawn_anew_where_it_looks_the_same(picture):
+    told = "walk.client.store.set('parameters', [...desk.state.parameters]); walk.client.store.touch('keypoints');"
+    assert picture.js(f"{FRAMES} {told} return draw(60);") == 0
+
+
+def test_the_headsets_picture_rests_while_paths_follow_a_drag(picture):
+    during, after = picture.js(f"""
+      {FRAMES}
+      const {{ path }} = desk.state;
+      const length = path.lengthM;
+      const drag = () => {{ path.lengthM += 1; walk.client.store.touch("path"); }};
+      const during = await draw(100, drag);
+      const after = await draw(60);
+      path.lengthM = length;
+      walk.client.store.touch("path");
+      return [during, after];
+    """)
+    assert during == 0
+    assert after == 1

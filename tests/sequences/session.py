@@ -147,6 +147,7 @@ class Session:
         self._past: list[bytes] = []
         self._future: list[bytes] = []
         self._follow()
+        self._live.prepare()
 
     def run(self, edits: int) -> None:
         """Does so many random edits, then takes all of them back."""
@@ -199,7 +200,7 @@ class Session:
         for share in np.linspace(0.0, 1.0, int(self._dice.integers(2, 5)))[1:]:
             before = self._shown()
             eye = eye_over_floor(self._building, begin + share * (goal - begin))
-            outcome = self._live.move(keypoint, eye)
+            outcome = self._live.move(keypoint, eye, hasty=share < 1.0)
             self.log.append(f"  drag {keypoint} to {eye.tolist()}: {outcome.reason or 'shown'}")
             if outcome.accepted:
                 self._judged(outcome.path)

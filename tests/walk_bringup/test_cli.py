@@ -31,6 +31,15 @@ def test_every_command_explains_itself_with_examples(name: str, capsys: pytest.C
     assert f"./walk {name}" in out
 
 
+@pytest.mark.parametrize("word", ["live", "bridge", "release"])
+def test_every_measurement_explains_itself(word: str) -> None:
+    script = "import sys; from walk_bringup.cli.main import main; sys.exit(main(['bench', *sys.argv[1:]]))"
+    env = {**os.environ, "WALK_ROOT": str(Path(SOURCES[0]).parents[1]), "PYTHONPATH": os.pathsep.join(sys.path)}
+    command = [sys.executable, "-c", script, word, "--help"]
+    told = subprocess.run(command, env=env, capture_output=True, text=True, timeout=60, check=True).stdout
+    assert f"./walk bench {word}" in told
+
+
 def test_every_command_in_the_overview_exists() -> None:
     for name in COMMANDS:
         assert group.get_command(None, name) is not None  # type: ignore[arg-type]

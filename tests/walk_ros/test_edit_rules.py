@@ -56,3 +56,9 @@ def test_a_locked_keypoint_is_neither_grabbed_nor_dragged():
     for kind in (EditKind.GRAB, EditKind.DRAG):
         assert rules.objection(edit(1, kind), (1,), (1,), 0.0) == "keypoint 1 is locked: unlock it first"
     assert rules.objection(edit(1, EditKind.CHANGE), (1,), (1,), 0.0) == ""
+
+
+def test_who_is_refused_a_grab_of_a_locked_keypoint_does_not_hold_it():
+    rules = EditRules()
+    assert "locked" in rules.objection(edit(1, EditKind.GRAB), (1,), (1,), 0.0)
+    assert rules.objection(edit(1, EditKind.CHANGE, "bert"), (1,), (1,), 0.1) == ""

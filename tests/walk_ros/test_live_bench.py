@@ -45,6 +45,12 @@ def test_a_path_that_never_came_answers_nothing():
     assert match(sent((1, 5, 0.0)), [told(1, 10)], {}).lost == 1
 
 
+def test_a_path_that_the_next_one_replaced_counts_as_late_as_that() -> None:
+    answers = match(sent((1, 5, 0.0), (2, 5, 0.011)), [told(1, 10), told(2, 20)], {20: 0.02})
+    assert answers.lost == 0 and answers.superseded == 1
+    assert answers.latency_s == pytest.approx((0.02, 0.009))
+
+
 def test_a_refusal_is_no_path_and_no_loss():
     answers = match(sent((1, 5, 0.0), (2, 5, 1.0)), [told(2, 10, refused=True)], {10: 0.1})
     assert (answers.latency_s, answers.refused, answers.lost) == ((), 2, 0)

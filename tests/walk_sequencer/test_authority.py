@@ -85,6 +85,25 @@ def test_an_edit_keeps_the_order_and_only_replan_changes_it(start):
     assert authority.planned.tour.length_m < long
 
 
+def test_what_is_taken_is_as_short_as_what_was_offered_wherever_the_entrance_is(start, monkeypatch):
+    # The entrance is in the middle room, and the tour by hand begins in the last one: from 10 m over 2 m to 6 m.
+    def in_the_middle(_building, eyes):
+        return int(np.argmin(np.abs(eyes[:, 0] - 6.0)))
+
+    monkeypatch.setattr("walk_sequencer.pipeline.first_from_entrance", in_the_middle)
+    authority = planned(start())
+    assert authority.keypoints.order[0] == 0
+    for identity in (0, 1, 2):
+        wish = Wish(kind="reorder", keypoint=identity, argument={0: "last", 1: "first", 2: "first"}[identity])
+        assert authority.edit(wish, CONFIG, EDITING).reason == ""
+    assert authority.keypoints.order == (2, 1, 0)
+    before, offered = authority.planned.tour.length_m, authority.better_order_saves_m(CONFIG)
+    assert offered > 3.0
+    authority.plan(CONFIG, anew=True, offered=True)
+    assert authority.keypoints.order == (2, 0, 1)
+    assert before - authority.planned.tour.length_m >= offered - 1e-6
+
+
 def test_a_lifted_keypoint_means_the_floor_below_it(start):
     authority = planned(start())
     assert move(authority, 0, [6.5, 1.5, 2.4]) == ""

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Nothing confirmed is lost: the journal, the keypoints it holds, and the authority over both."""
 
+import contextlib
 import json
 import os
+import resource
 
 import numpy as np
 import pytest
@@ -104,7 +106,9 @@ def test_an_entry_is_on_disk_before_append_returns(journal, monkeypatch):
     monkeypatch.setattr(os, "fsync", lambda fd: (synced.append(fd), fsync(fd)))
     journal.replay()
     journal.append(order_entry([]))
-    assert len(synced) == 1
+    assert len(synced) == 2  # the file, and the folder that it is new in
+    journal.append(order_entry([]))
+    assert len(synced) == 3
     assert journal.path.read_text().endswith("\n")
 
 
@@ -161,3 +165,27 @@ def test_a_change_that_does_not_fit_is_refused(entry):
     keypoints = changed(Keypoints(), suggested_entry(POSITIONS, QUATS))
     with pytest.raises((ValueError, KeyError, TypeError)):
         changed(keypoints, entry)
+
+
+@contextlib.contextmanager
+def room_for(journal, more_bytes):
+    """Lets the journal grow by so many bytes only, as on a disk that is nearly full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (journal.path.stat().st_size + more_bytes, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+@pytest.mark.parametrize("more_bytes", [0, 1, 40])
+def test_a_change_that_found_no_room_on_the_disk_spoils_none_behind_it(journal, more_bytes):
+    three(journal)
+    whole = journal.path.read_bytes()
+    with room_for(journal, more_bytes), pytest.raises(JournalError, match=r"abc\.jsonl"):
+        journal.append(move_entry(1, [9.0, 9.0, 1.6], QUATS[1], "anna"))
+    assert journal.path.read_bytes() == whole
+    journal.append(move_entry(2, [4.5, 6.0, 1.6], QUATS[2], "anna"))
+    kept = journal.replay().present
+    np.testing.assert_array_equal(kept.positions[1], POSITIONS[1])
+    np.testing.assert_array_equal(kept.positions[2], [4.5, 6.0, 1.6])

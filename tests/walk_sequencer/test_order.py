@@ -84,14 +84,14 @@ def test_keypoints_on_a_line_are_walked_from_end_to_end(name: str) -> None:
     assert order_cost(costs, ordered(name, costs)) == pytest.approx(13.0)
 
 
-def test_auto_is_exact_up_to_fourteen() -> None:
-    assert [resolve_method("auto", n) for n in (0, 14, 15)] == ["exact", "exact", "local_search"]
+def test_auto_is_exact_up_to_sixteen() -> None:
+    assert [resolve_method("auto", n) for n in (0, 16, 17)] == ["exact", "exact", "local_search"]
     assert resolve_method("mst_dfs", 3) == "mst_dfs"
 
 
 def test_exact_refuses_what_it_cannot_hold() -> None:
-    with pytest.raises(ParameterError, match="local_search for 15 keypoints"):
-        ordered("exact", euclidean(15, 0))
+    with pytest.raises(ParameterError, match="local_search for 17 keypoints"):
+        ordered("exact", euclidean(17, 0))
 
 
 def test_local_search_of_sixty_reaches_the_best_of_many_kicks_within_two_percent() -> None:

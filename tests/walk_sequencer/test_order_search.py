@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ruin and recreate under rules, and the bound that the orders are measured by."""
+"""Orders under rules against the best there are, and the bounds that they are measured by."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from order_oracle import brute_force, euclidean, keeps, ordered
+from order_oracle import brute_force, euclidean, keeps, least_by_sets, ordered
 
 from walk_sequencer.bench_order import least_cost, random_rules
 from walk_sequencer.order import order_cost
@@ -51,6 +51,23 @@ def test_ruin_and_recreate_alone_finds_the_best_order_under_rules() -> None:
         tour = recreate(closed, early_of(n, rules), np.r_[0, first + 1], 20000, np.random.default_rng(seed))
         best = order_cost(closed[1:, 1:], ordered("exact", closed[1:, 1:], rules=rules))
         assert order_cost(closed[1:, 1:], tour[1:] - 1) <= 1.001 * best
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_oracle_under_rules_finds_the_cost_of_the_best_permutation(seed: int) -> None:
+    costs, rules = np.random.default_rng(seed).uniform(0.0, 9.0, (7, 7)), random_rules(7, seed)
+    assert least_by_sets(costs, rules) == pytest.approx(brute_force(costs, -1, -1, rules))
+
+
+def test_sixteen_under_rules_cost_the_least_by_the_exact_order_and_at_most_a_percent_more_by_the_search() -> None:
+    for seed in range(40):
+        one_way = np.random.default_rng(seed).uniform(1.0, 9.0, (16, 16))
+        costs, rules = one_way if seed % 4 == 0 else euclidean(16, seed), random_rules(16, seed)
+        best = least_by_sets(costs, rules)
+        exact, searched = ordered("exact", costs, rules=rules), ordered("local_search", costs, rules=rules)
+        assert keeps(tuple(searched.tolist()), rules=rules)
+        assert order_cost(costs, exact) == pytest.approx(best)
+        assert order_cost(costs, searched) <= 1.01 * best
 
 
 def test_fifty_under_rules_are_within_one_percent_of_a_longer_search() -> None:

@@ -7,6 +7,10 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from walk_plan.walkthrough import Walkthrough
 
 Box = tuple[tuple[float, float, float], tuple[float, float, float]]
 
@@ -22,6 +26,7 @@ _PIECES: tuple[Box, ...] = (
     ((3.9, 2.0, 0.0), (4.1, 3.0, 2.6)),
     ((3.9, 1.0, 2.1), (4.1, 2.0, 2.6)),
 )
+_MIDDLE_X = 4.0  # of the wall between the two
 _SIDES = ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5))
 
 
@@ -54,8 +59,28 @@ def run(file: Path) -> None:
     for percent, visibility in ((85, "exact"), (90, "rays")):
         _tell(percent, f"{visibility} visibility")
         compute_importance(building, ImportanceConfig(voxel_size_m=0.5, visibility=visibility))
-    _tell(95, "local search")
+    _tell(94, "local search")
     plan_tour(building, walkthrough.suggestion.positions, SequencerConfig(milestones=100, method="local_search"))
+    _tell(97, "edits")
+    drag(walkthrough)
+
+
+def drag(walkthrough: Walkthrough) -> None:
+    """Drags each keypoint into the other room, through the wall and round it, as a hand does, and lets it go."""
+    from walk_building.footing import eye_over_floor
+    from walk_trajopt.live import Revision, live_path
+    from walk_trajopt.timing import time_path
+
+    building, tour = walkthrough.building, walkthrough.tour
+    stands = tour.stands[tour.order]
+    live = live_path(building, walkthrough.config.trajectory)
+    live.follow(Revision(ids=tuple(range(len(stands))), keypoints=stands, polyline=tour.polyline))
+    live.prepare()
+    for keypoint, (x, y, z) in enumerate(stands.tolist()):
+        for share in (0.0, 0.2, 0.5, 0.8, 1.0):
+            there = eye_over_floor(building, (x + share * (_MIDDLE_X - x) * 1.8, y, z))
+            outcome = live.move(keypoint, there, hasty=share < 1.0)
+            time_path(outcome.path, walkthrough.config.timing)
 
 
 def _tell(percent: int, stage: str) -> None:

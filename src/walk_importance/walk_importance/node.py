@@ -51,6 +51,8 @@ class ImportanceNode(WalkNode):
     published again.
     """
 
+    niceness = 10
+
     def __init__(self) -> None:
         super().__init__("importance", {"importance": ImportanceConfig, "keypoints": KeypointConfig})
         self.declare_text("cache_dir", str(default_cache_dir()), "folder of computed maps; empty keeps none")

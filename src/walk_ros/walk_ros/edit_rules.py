@@ -33,12 +33,11 @@ class EditRules:
         # An edit without a stamp is never stale.
         if 0 < edit.stamp_ns < self._last_stamp.get(edit.keypoint, 0):
             return f"stale: a later edit of keypoint {edit.keypoint} has been accepted"
-        holder = self._holds.take(edit.keypoint, edit.client_id, now_s)
-        if holder:
-            return f"keypoint {edit.keypoint} is held by {holder!r}"
+        # Asked first: whoever is refused a grab must not hold the keypoint, or nobody else could unlock it.
         if edit.kind in (EditKind.GRAB, EditKind.DRAG) and edit.keypoint in locked:
             return f"keypoint {edit.keypoint} is locked: unlock it first"
-        return ""
+        holder = self._holds.take(edit.keypoint, edit.client_id, now_s)
+        return f"keypoint {edit.keypoint} is held by {holder!r}" if holder else ""
 
     def keep(self, edit: KeypointEdit, now_s: float) -> None:
         """Lets an editor that is still there hold its keypoint on."""

@@ -42,7 +42,13 @@ class WalkNode(Node):
 
     Subclasses say in `work` what is to be done about the newest input and in `fail` what is published when it
     cannot be done. Both run in the worker's thread.
+
+    Attributes:
+        niceness: By how much the worker steps back behind others: a planner of the next revision behind those who
+            show the present one.
     """
+
+    niceness = 0
 
     def __init__(self, name: str, configs: Mapping[str, type[Config]]) -> None:
         """Declares the parameters and starts the diagnostics; the worker starts with `start`.
@@ -54,7 +60,7 @@ class WalkNode(Node):
         super().__init__(name, namespace=NAMESPACE)
         forward_logging(self.get_logger())
         self.diagnostics = Diagnostics(self.get_fully_qualified_name().strip("/"))
-        self.worker = Worker(f"{name} worker", self._step, self.report)
+        self.worker = Worker(f"{name} worker", self._step, self.report, self.niceness)
         self.building: Building | None = None
         self._loaded_for: tuple[Any, ...] = ()
         self._last_revision_ns = 0

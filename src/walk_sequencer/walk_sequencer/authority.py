@@ -18,6 +18,7 @@ from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal
 from walk_sequencer.keypoints import Keypoints
+from walk_sequencer.order import order_cost
 from walk_sequencer.pipeline import plan_tour
 from walk_sequencer.reorder import reorder, saved_m
 from walk_sequencer.rules import FREE, conflict
@@ -79,14 +80,24 @@ class Authority:
         self.planned = None
         return True
 
-    def plan(self, config: SequencerConfig, progress: Progress = no_progress, *, anew: bool = False) -> Planned:
+    def plan(
+        self,
+        config: SequencerConfig,
+        progress: Progress = no_progress,
+        *,
+        anew: bool = False,
+        offered: bool = False,
+    ) -> Planned:
         """Plans the tour; the order stays as it is unless there is none yet or `anew` asks for another.
 
-        Another order leaves locked keypoints, and the ends a user has chosen, where they are in the order.
+        Another order leaves locked keypoints, and the ends a user has chosen, where they are in the order. With
+        `offered` it is never longer than the one that `better_order_saves_m` means, which begins where the tour does.
         """
+        offer = self._offer(config) if anew and offered else ()
         pinned = self.keypoints.locked | ({self.keypoints.start, self.keypoints.end} - {-1})
         if not self.keypoints.order or (anew and not pinned):
-            self._settle(self._planned(self.keypoints, config, progress, anew=True))
+            found = self._settle(self._planned(self.keypoints, config, progress, anew=True))
+            self._take_shorter(offer, found)
         elif anew:
             planned = self._planned(self.keypoints, config, progress)
             self._settle(planned)
@@ -122,6 +133,23 @@ class Authority:
             return 0.0
         pinned = self._pinned_rows(planned) | {int(planned.tour.order[0])}
         return saved_m(planned.tour.lengths_m, planned.tour.order, pinned, _by_row(config, planned.keypoints))
+
+    def _offer(self, config: SequencerConfig) -> tuple[int, ...]:
+        """Returns the order that is offered, by identities: around what is pinned, from the same start; or ()."""
+        planned = self.planned
+        if planned is None or len(planned.tour.order) < 3:
+            return ()
+        pinned = self._pinned_rows(planned) | {int(planned.tour.order[0])}
+        rows = reorder(planned.tour.lengths_m, planned.tour.order, pinned, _by_row(config, planned.keypoints))
+        return tuple(planned.keypoints.ids[k] for k in rows.tolist())
+
+    def _take_shorter(self, offer: tuple[int, ...], found: Planned) -> None:
+        """Keeps the order offered where the one found, which may have to begin elsewhere, is longer."""
+        rows = [found.keypoints.index(i) for i in offer]
+        if sorted(rows) == sorted(found.tour.order.tolist()):
+            length_m = order_cost(found.tour.lengths_m, np.array(rows, dtype=np.int64))
+            if length_m < order_cost(found.tour.lengths_m, found.tour.order):
+                self._record(order_entry(offer))
 
     def _pinned_rows(self, planned: Planned) -> set[int]:
         keypoints = planned.keypoints

@@ -23,7 +23,7 @@ class SequencerConfig(Config):
     seed: int = param(1, "seed of the roadmap and of the order's random restarts", low=0, high=2**31 - 1)
     method: str = param(
         "auto",
-        "how the order is found: auto is exact up to 14 keypoints and local_search above; given keeps the user's",
+        "how the order is found: auto is exact up to 16 keypoints and local_search above; given keeps the user's",
         choices=METHODS,
     )
     begin: str = param(

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import logging
 import os
 from collections.abc import Iterator
+from io import FileIO
 from pathlib import Path
 
 from walk_building.errors import WalkError
@@ -62,14 +64,16 @@ class Journal:
         """Writes a change through to the disk; it may be confirmed after this.
 
         Raises:
-            JournalError: The file cannot be written.
+            JournalError: The file cannot be written; it is as before.
         """
-        line = json.dumps(dict(entry), allow_nan=False) + "\n"
+        line = (json.dumps(dict(entry), allow_nan=False) + "\n").encode()
         try:
-            with self.path.open("ab") as file:
-                file.write(line.encode())
-                file.flush()
-                os.fsync(file.fileno())
+            new = not self.path.exists()
+            # Unbuffered: what could not be written must not follow when the file is closed.
+            with self.path.open("ab", buffering=0) as file:
+                self._write_through(file, line)
+            if new:
+                self._sync_folder()
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 
@@ -80,6 +84,25 @@ class Journal:
                 self.path.replace(self.path.with_suffix(".old"))
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
+
+    def _write_through(self, file: FileIO, line: bytes) -> None:
+        end = file.tell()
+        try:
+            if file.write(line) < len(line):
+                raise OSError(errno.ENOSPC, "only a part of the change could be written")
+            os.fsync(file.fileno())
+        except OSError:
+            # A refused change must not come back at the next start, and half a line would spoil the one behind it.
+            file.truncate(end)
+            raise
+
+    def _sync_folder(self) -> None:
+        """Writes the file's name through to the disk, which the file's own fsync does not."""
+        folder = os.open(self.path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
 
     def _replay(self) -> History:
         self.path.parent.mkdir(parents=True, exist_ok=True)

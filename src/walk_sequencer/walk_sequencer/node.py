@@ -28,6 +28,8 @@ from walk_sequencer.wishes import Wish
 class SequencerNode(WalkNode):
     """Publishes keypoints, markers, legs and the tour; answers every edit."""
 
+    niceness = 10
+
     def __init__(self) -> None:
         super().__init__("sequencer", {"sequencer": SequencerConfig, "editing": EditingConfig})
         self.declare_text("state_dir", str(default_state_dir()), "folder for the journal of edits")
@@ -49,11 +51,12 @@ class SequencerNode(WalkNode):
         if suggested is not None:
             authority.adopt(suggested.positions, suggested.quat_xyzw)
         config = self.parameters.get("sequencer", SequencerConfig)
-        anew, self._replan = self._replan or self._planned_with not in (None, config), False
+        asked, self._replan = self._replan, False
+        anew = asked or self._planned_with not in (None, config)
         if authority.keypoints.ids and (authority.planned is None or anew):
             began = self.now_s()
             self.diagnostics.state("planning")
-            authority.plan(config, self.worker.progress, anew=anew)
+            authority.plan(config, self.worker.progress, anew=anew, offered=asked)
             self._planned_with = config
             self.diagnostics.latency(self.now_s() - began)
             self._publish(authority)

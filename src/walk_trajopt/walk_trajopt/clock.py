@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from walk_building.errors import ParameterError
 from walk_trajopt.config import TimingConfig
-from walk_trajopt.heading import Heading, gradient, on_even_grid
+from walk_trajopt.heading import Heading, gradient
 
 _TICK_S = 0.01
 _APART = 3  # places of the grid between two rests, at least
@@ -104,11 +104,16 @@ def _limits(arc_m, yaw, look, bend, turn_rate, lateral_acceleration, speed):
     spacing = arc_m[1]
     turning = gradient(look, spacing)
     limit = np.empty(len(arc_m))
+    beside, last = _BESIDE_M / spacing, len(arc_m) - 1
+    cells = int(beside)
+    share = beside - cells
     for i in range(len(arc_m)):
         lateral = np.sqrt(lateral_acceleration / max(bend[i], 1e-9))
         # Where the path turns on the spot, curvature does not say how sudden that is; the change of direction does.
-        ahead = on_even_grid(arc_m[i] + _BESIDE_M, spacing, yaw)
-        corner = min(abs(ahead - on_even_grid(arc_m[i] - _BESIDE_M, spacing, yaw)), np.pi)
+        on, back = min(i + cells, last), max(i - cells, 0)
+        ahead = yaw[on] + share * (yaw[min(on + 1, last)] - yaw[on])
+        behind = yaw[back] + share * (yaw[max(back - 1, 0)] - yaw[back])
+        corner = min(abs(ahead - behind), np.pi)
         # The chord of a unit circle is no longer than its arc: most corners need no sine.
         sudden = lateral_acceleration * _STEP_S / max(corner, 1e-9)
         if sudden < speed:
@@ -124,8 +129,10 @@ def _widened(limit: NDArray[np.float64], spacing: float, acceleration: float, ha
 
     The average over time that follows the passes then stays within the limit that was there before.
     """
-    out = limit.copy()
+    out, highest = limit.copy(), limit.max()
     for i in range(len(limit)):
+        if limit[i] >= highest:
+            continue  # lowers none of its neighbours
         reach = int(np.ceil((limit[i] * half_s + 0.5 * acceleration * half_s**2) / spacing))
         for j in range(max(i - reach, 0), min(i + reach + 1, len(limit))):
             out[j] = min(out[j], limit[i])
@@ -154,14 +161,16 @@ def _ticks(arc_m, speed, dwell_s):
         leave[i + 1] = leave[i] + 2.0 * (arc_m[i + 1] - arc_m[i]) / (speed[i] + speed[i + 1]) + dwell_s[i + 1]
     count = int(np.ceil(leave[-1] / _TICK_S)) + 1
     arc, rate = np.empty(count), np.zeros(count)
-    cell = 0
+    cell, entered = 0, -1
     for k in range(count):
         while cell < cells - 1 and leave[cell + 1] <= k * _TICK_S:
             cell += 1
-        duration = leave[cell + 1] - dwell_s[cell + 1] - leave[cell]
+        if cell != entered:
+            entered = cell
+            duration = leave[cell + 1] - dwell_s[cell + 1] - leave[cell]
+            acceleration = (speed[cell + 1] - speed[cell]) / duration
         since = k * _TICK_S - leave[cell]
         going = min(max(since, 0.0), duration)
-        acceleration = (speed[cell + 1] - speed[cell]) / duration
         arc[k] = min(arc_m[cell] + speed[cell] * going + 0.5 * acceleration * going**2, arc_m[-1])
         if 0.0 <= since <= duration:
             rate[k] = speed[cell] + acceleration * going

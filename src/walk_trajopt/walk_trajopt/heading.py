@@ -29,7 +29,7 @@ class Heading:
 _LEAST_CELLS = 9  # a path of centimetres still has somewhere to speed up and slow down
 _BODY_M = 0.03  # over which a bend is averaged, so that the grid sees every corner
 _CORNER_M = 0.06  # a polyline's corner is taken as a bend over so much of its sides, or over half a shorter side
-_LEVEL = 1e-3  # horizontal share of a direction below which it is straight up or down
+_LEVEL = 1e-3  # slope [rad] of what is level, and horizontal share of a direction that is straight up or down
 
 
 def heading_of(
@@ -60,7 +60,7 @@ def _on_grid(points, arc_m, grid, spacing, lookahead, smoothing):
     look, bend = np.empty(len(grid)), np.empty(len(grid))
     for i in range(len(grid)):
         look[i] = on_even_grid(grid[i] + lookahead, spacing, smooth)
-        across = turning[i] * np.cos(tilted[i]) if tilted[i] != 0.0 else turning[i]
+        across = turning[i] * np.cos(tilted[i]) if abs(tilted[i]) > _LEVEL else turning[i]
         bend[i] = np.sqrt(across * across + tilting[i] * tilting[i])
     return turned, look, bend
 

@@ -132,8 +132,9 @@ class OptimisedWalk(LivePath):
         """Lays the floor out for finding other ways."""
         if self._router is None:
             self._router = Router(self._building)
-        if self._optimiser is not None:
-            self._optimiser.router = self._router
+            if self._optimiser is not None:
+                self._optimiser.mover.router = self._router
+                self._optimiser.rehearse()
 
     @property
     def keypoints(self) -> NDArray[np.float64]:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections import deque
 from pathlib import Path
 from typing import Any
 
@@ -17,19 +16,16 @@ from walk_ros.conversions import (
     EditResult,
     KeypointEdit,
     Outcome,
-    edit_from_bytes,
-    edit_result_from_msg,
     edit_result_to_msg,
 )
 from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
-from walk_ros.holds import Holds
 from walk_ros.node import WalkNode
-from walk_ros.raw import from_bytes
 from walk_ros.results import path_messages
 from walk_ros.runner import run_node
 from walk_trajopt.config import TimingConfig, TrajoptConfig
 from walk_trajopt.kept import default_state_dir
 from walk_trajopt.live import LivePath, live_path
+from walk_trajopt.node_edits import Edits
 from walk_trajopt.node_inbox import Inbox, Plan
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.trajectory import Trajectory
@@ -42,10 +38,7 @@ class TrajoptNode(WalkNode):
         super().__init__("trajopt", {"trajopt": TrajoptConfig, "timing": TimingConfig})
         self.declare_text("state_dir", str(default_state_dir()), "folder where the last path is kept; empty keeps none")
         self._inbox = Inbox()
-        self._edits: deque[tuple[KeypointEdit, float]] = deque()
-        self._holds = Holds()
-        self._followed: dict[int, str] = {}
-        self._undo: deque[int] = deque()
+        self._edits = Edits()
         self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
         self._path_ns = 0
@@ -78,12 +71,11 @@ class TrajoptNode(WalkNode):
 
     def _take_back(self) -> bool:
         """Takes back what the authority has refused; returns whether there was anything."""
-        undone = False
-        while self._undo:
-            keypoint, undone = self._undo.popleft(), True
+        refused = self._edits.refused()
+        for keypoint in refused:
             if self._live is not None and self._solved_for:
                 self._live.take_back(keypoint)
-        return undone
+        return bool(refused)
 
     def _folder(self) -> Path | None:
         folder = str(self.get_parameter("state_dir").value)
@@ -117,13 +109,10 @@ class TrajoptNode(WalkNode):
 
     def _follow_edits(self, building: Building, plan: Plan, timing: TimingConfig) -> None:
         """Follows the latest edit of each keypoint; the ones before it are dropped."""
-        latest: dict[int, tuple[KeypointEdit, float]] = {}
-        while self._edits:
-            edit, came_s = self._edits.popleft()
-            if edit.keypoint in latest:
-                self.diagnostics.dropped()
-            latest[edit.keypoint] = (edit, came_s)
-        for edit, came_s in latest.values():
+        latest, dropped = self._edits.latest()
+        for _ in range(dropped):
+            self.diagnostics.dropped()
+        for edit, came_s in latest:
             if self._live is None or edit.keypoint not in plan.ids:
                 continue
             hasty = edit.kind is EditKind.DRAG
@@ -179,18 +168,7 @@ class TrajoptNode(WalkNode):
         self.worker.wake()
 
     def _store_edit(self, data: bytes) -> None:
-        edit = edit_from_bytes(data)
-        # All but moving is the sequencer's: the path follows with its next revision.
-        if edit.kind is EditKind.CHANGE or edit.keypoint in self._inbox.marks.locked:
-            return
-        # The sequencer refuses an edit of what another editor holds; it is not followed here either.
-        if self._holds.take(edit.keypoint, edit.client_id, self.now_s()):
-            return
-        if edit.kind is EditKind.RELEASE:
-            self._holds.release(edit.keypoint, edit.client_id)
-        if edit.kind in (EditKind.DRAG, EditKind.RELEASE):
-            self._followed[edit.keypoint] = edit.client_id
-            self._edits.append((edit, self.now_s()))
+        self._edits.store(data, self._inbox.marks.locked, self.now_s())
 
     def _answer_edits(self) -> None:
         if self._edits:
@@ -200,20 +178,19 @@ class TrajoptNode(WalkNode):
         """Follows edits of the tour that is solved; what takes longer is left to the worker."""
         plan, timing = self._inbox.plan(), self.parameters.get("timing", TimingConfig)
         settings = self.parameters.get("trajopt", TrajoptConfig), timing
-        if self.building is None or plan is None or self._undo or self._solved_for != (plan.stamp_ns, *settings):
+        if (
+            self.building is None
+            or plan is None
+            or self._edits.any_refused
+            or self._solved_for != (plan.stamp_ns, *settings)
+        ):
             self.worker.wake()
             return
         self._follow_edits(self.building, plan, timing)
 
     def _store_result(self, data: bytes) -> None:
-        # Every drag is answered; only a refusal is of use here, and is worth reading.
-        if Outcome.REFUSED.value.encode() not in bytes(data):
-            return
-        result = edit_result_from_msg(from_bytes(data, "diagnostic_msgs/msg/DiagnosticStatus"))
-        refused = result.outcome is Outcome.REFUSED and result.keypoint.isdigit()
         # What the authority refuses is taken back: the path goes through its place for the keypoint again.
-        if refused and self._followed.pop(int(result.keypoint), None) == result.client_id:
-            self._undo.append(int(result.keypoint))
+        if self._edits.store_result(data):
             self.worker.wake()
 
 

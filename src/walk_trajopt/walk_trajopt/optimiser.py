@@ -13,7 +13,8 @@ from walk_building.building import Building
 from walk_building.errors import ParameterError
 from walk_building.route import Router
 from walk_trajopt.config import TrajoptConfig
-from walk_trajopt.guard import Guard, Stretches
+from walk_trajopt.guard import Guard
+from walk_trajopt.moving import Move, Mover
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.pieces import Pieces
 from walk_trajopt.polyline import Polyline, as_polyline_points, tour_of
@@ -21,11 +22,10 @@ from walk_trajopt.resample import keypoint_arcs, point_count
 from walk_trajopt.result import path_of
 from walk_trajopt.revise import ends_at_keypoints, revised, share_of_new
 from walk_trajopt.solvers import Solution
-from walk_trajopt.state import Legs, State, bent, initial_state
+from walk_trajopt.state import State, initial_state
 
 _ROUGH = 1e-2  # tolerance of a problem that is only on the way to another
 _MOSTLY_NEW = 0.5  # share of new legs above which solving all of them finds a better path in the same time
-_HASTY_ITERATIONS, _HASTY_TOLERANCE = 10, 1e-3  # of a drag: the next one goes on from there, a release takes its time
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,17 +37,6 @@ class EditOutcome:
     reason: str  # why it was refused, "" if it was not
 
 
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
-class _Try:
-    """A moved keypoint, its way drawn and swept."""
-
-    state: State
-    touching: Stretches  # of its way
-    hopeless: Stretches  # of these, where it cannot be mended
-    solution: Solution
-    mended: bool = False
-
-
 class Optimiser:
     """Holds one trajectory problem and its solution; an edit changes both locally.
 
@@ -56,7 +45,7 @@ class Optimiser:
     Attributes:
         config: As given.
         pieces: Solves what an edit changes; its spacing is that of the tour that was solved as a whole.
-        router: Finds another way where a bent leg collides; without one such an edit is refused.
+        mover: Moves keypoints; without a router it refuses an edit that bends a leg through a wall.
         state: The solution; taking back an earlier one undoes what came after it.
     """
 
@@ -80,18 +69,13 @@ class Optimiser:
             router: Finds another way where a bent leg collides; None for none.
         """
         self.config = config or TrajoptConfig()
-        self._hasty = dataclasses.replace(
-            self.config,
-            max_iterations=min(self.config.max_iterations, _HASTY_ITERATIONS),
-            tolerance=max(self.config.tolerance, _HASTY_TOLERANCE),
-        )
         self._building = building
-        self.router = router
         self._guard = Guard(building, self.config.chord_error_m)
         tour = tour_of(polyline)
         n = point_count(tour.length_m, self.config)
         self.state: State = self._fresh(tour, as_polyline_points("keypoints", keypoints, at_least=0), locked, n)
         self.pieces = Pieces(building, self.config, tour.length_m / (n - 1))
+        self.mover = Mover(self._guard, self.pieces, self.config, router)
         self._solution = Solution(x=self.state.x, cost=np.inf, iterations=0, evaluations=0)
 
     def solve(self) -> None:
@@ -159,14 +143,24 @@ class Optimiser:
         if not np.isfinite(eye).all():
             return self._refused("there is no floor below the new place")
         before, after = (None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
-        tried = self._moved(keypoint, eye[0], (before, after), hasty)
-        if tried.hopeless:
-            times = len(tried.hopeless)
+        move = Move(keypoint=keypoint, eye=eye[0], radius_m=float(self._radii(eye)[0]), hasty=hasty)
+        moved = self.mover.moved(self.state, move, (before, after))
+        if moved.hopeless:
+            times = len(moved.hopeless)
             return self._refused(f"the body would touch the building {times} times beside keypoint {keypoint}")
-        window = tried.state.window(keypoint)
-        self.state = dataclasses.replace(tried.state, terms=self.pieces.spliced_terms(self.state, tried.state, *window))
-        self._solution = tried.solution
+        window = moved.state.window(keypoint)
+        self.state = dataclasses.replace(moved.state, terms=self.pieces.spliced_terms(self.state, moved.state, *window))
+        self._solution = moved.solution
         return EditOutcome(path=self.path(), accepted=True, reason="")
+
+    def rehearse(self) -> None:
+        """Does once what an edit may need and drops what comes of it: code is slow the first time it runs."""
+        state, solution = self.state, self._solution
+        for keypoint in np.flatnonzero(~state.pinned)[:1].tolist():
+            for hasty in (True, False):
+                self.move_keypoint(keypoint, state.keypoints[keypoint], hasty=hasty)
+        self.state, self._solution = state, solution
+        self.mover.rehearse(state)
 
     def revise(
         self, polyline: ArrayLike, keypoints: ArrayLike, came_from: NDArray[np.int64], locked: ArrayLike | None = None
@@ -220,55 +214,6 @@ class Optimiser:
 
     def _refused(self, reason: str) -> EditOutcome:
         return EditOutcome(path=self.path(), accepted=False, reason=reason)
-
-    def _moved(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, hasty: bool) -> _Try:
-        """Returns the state with a keypoint moved, checked; by other legs where a bent one leads through a wall."""
-        config = self._hasty if hasty else self.config
-        tried = self._bent(keypoint, eye, legs, config)
-        # A leg that is found anew may push the other one, which was bent, into a wall of its own: twice at most.
-        while True:
-            if not tried.hopeless:
-                tried = self._mended(tried, keypoint, config)
-            others = self._other_legs(keypoint, eye, legs, tried.hopeless)
-            if others is None:
-                break
-            legs = others
-            tried = self._bent(keypoint, eye, legs, config)
-        # In vain, most likely; a hand that goes on does not wait for it.
-        return tried if tried.mended or hasty else self._mended(tried, keypoint, config)
-
-    def _mended(self, tried: _Try, keypoint: int, config: TrajoptConfig) -> _Try:
-        first, last = tried.state.window(keypoint)
-        state = self._guard.mended(tried.state, first, last, tried.touching, self.pieces, config)
-        stuck = [(m.start_m, m.end_m) for m in state.mended if not m.free and m not in self.state.mended]
-        return dataclasses.replace(tried, state=state, hopeless=stuck, mended=True)
-
-    def _bent(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, config: TrajoptConfig) -> _Try:
-        """Returns the state with a keypoint moved, solved and drawn, and where it collides."""
-        radius = float(self._radii(eye[None])[0])
-        moved = bent(self.state, keypoint, eye, radius, legs, self.pieces.spacing_m)
-        first, last = moved.window(keypoint)
-        if config is self.config:
-            moved = moved.relaxed(first, last)
-        solution = self.pieces.solve(moved, first, last, config)
-        state, touching = self._guard.swept(dataclasses.replace(moved, x=solution.x), first, last)
-        hopeless = self._guard.hopeless(state, touching)
-        return _Try(state=state, touching=touching, hopeless=hopeless, solution=solution)
-
-    def _other_legs(self, keypoint: int, eye: NDArray[np.float64], legs: Legs, hopeless: Stretches) -> Legs | None:
-        """Returns the legs, those found anew that are bent through a wall; None where there is none to find."""
-        if self.router is None or not hopeless:
-            return None
-        first, last = self.state.window(keypoint)
-        here = float(self.state.keypoint_m[keypoint])
-        begin, end = (self.state.tour.at(self.state.arc_m[at])[0] for at in (first, last))
-        before, after = legs
-        if before is None and any(a < here for a, _ in hopeless):
-            before = self.router.way(begin, eye)
-        if after is None and any(b > here for _, b in hopeless):
-            after = self.router.way(eye, end)
-        found = before is not legs[0] or after is not legs[1]
-        return (before, after) if found else None
 
     def _checked(self, state: State, first: int, last: int, config: TrajoptConfig) -> State:
         """Draws the curve through points `first` to `last` anew, sweeps the body along it and repairs it."""

@@ -46,8 +46,6 @@ class BridgeNode(WalkNode):
         site: What the web server serves.
     """
 
-    niceness = 0  # edits go through it
-
     def __init__(self, loop: asyncio.AbstractEventLoop, on_config: Callable[[], None]) -> None:
         """Subscribes; everything of the web server happens in the loop.
 

@@ -50,27 +50,26 @@ def match(sent: Sequence[Sent], told: Sequence[Told], paths: Mapping[int, float]
     Args:
         sent: In the order they were published.
         told: In any order.
-        paths: When each path came in, by its stamp; a path that was named but never came answers nothing.
+        paths: When each path came in, by its stamp; one that was named but never came answers with the next that did.
     """
     by_edit = {t.edit_stamp_ns: t for t in told}
-    latency, superseded, refused, lost = [], 0, 0, 0
+    latency, superseded, refused = [], 0, 0
     reasons: dict[str, None] = {}
     waiting: dict[int, list[Sent]] = {}
     for edit in sent:
         waiting.setdefault(edit.keypoint, []).append(edit)
         answer = by_edit.get(edit.stamp_ns)
-        if answer is None:
+        # Of a path only the newest is kept for its reader: where the next one came first, that one shows the edit.
+        if answer is None or not (answer.refused or answer.path_stamp_ns in paths):
             continue
         answered = waiting.pop(edit.keypoint)
         if answer.refused:
             refused += len(answered)
             reasons[answer.reason] = None
-        elif answer.path_stamp_ns in paths:
+        else:
             latency += [paths[answer.path_stamp_ns] - e.at_s for e in answered]
             superseded += len(answered) - 1
-        else:
-            lost += len(answered)
-    lost += sum(map(len, waiting.values()))
+    lost = sum(map(len, waiting.values()))
     return Answers(latency_s=tuple(latency), superseded=superseded, refused=refused, lost=lost, reasons=tuple(reasons))
 
 

@@ -45,7 +45,7 @@ class BenchGraph:
         self._folder = folder
         self._running = [
             self._start("copier", "walk_vr_bridge.bench.copier"),
-            self._start("bridge", "walk_vr_bridge.main", f"building:={building}", f"bridge.port:={self.port}"),
+            self._start("bridge", "walk_vr_bridge.main", *bridge_parameters(building, self.port)),
         ]
 
     @property
@@ -96,6 +96,11 @@ class BenchGraph:
         ros = [part for parameter in parameters for part in ("-p", parameter)]
         with (self._folder / f"{name}.log").open("wb") as log:
             return subprocess.Popen([sys.executable, "-m", module, "--ros-args", *ros], stdout=log, stderr=log)
+
+
+def bridge_parameters(building: str, port: int) -> list[str]:
+    """Returns the bridge's parameters; an empty one, for the sample, cannot be written on a command line of ROS."""
+    return [f"bridge.port:={port}", *([f"building:={building}"] if building else [])]
 
 
 def _free_port() -> int:

@@ -59,6 +59,11 @@ async function post(url: string, body: unknown): Promise<string> {
   if (!answer) return "The bridge does not answer.";
   if (answer.ok) return "";
   const said = (await answer.json().catch(() => null)) as { error?: unknown; tries_left?: unknown } | null;
-  const reason = typeof said?.error === "string" ? said.error : `The bridge refused (${answer.status}).`;
+  const reason = typeof said?.error === "string" ? sentence(said.error) : `The bridge refused (${answer.status}).`;
   return typeof said?.tries_left === "number" ? `${reason} Tries left: ${said.tries_left}.` : reason;
+}
+
+/** A reason as the bridge gives it, as a sentence of its own. */
+function sentence(reason: string): string {
+  return reason.charAt(0).toUpperCase() + reason.slice(1).replace(/[.]?$/, ".");
 }

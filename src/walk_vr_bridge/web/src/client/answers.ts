@@ -3,7 +3,6 @@
 /** What the bridge and the planner answer and announce, read from their messages. */
 
 import { atLeast, fields, finite, flag, list, MessageError, words } from "./check";
-import type { Profile } from "./playback";
 import type { NodeStatus, PlaybackState } from "./state";
 
 export interface EditResult {
@@ -92,19 +91,6 @@ export function session(message: unknown): { clientId: string; role: "viewer" | 
   const said = told(message, "bridge/session");
   if (said.role !== "viewer" && said.role !== "editor") throw new MessageError("a role is viewer or editor");
   return { clientId: words(said.client_id, "client_id"), role: said.role };
-}
-
-export function profile(message: unknown): Profile {
-  const said = told(message, "bridge/profile");
-  return {
-    revision: digits(said.path_ns),
-    clearanceM: numbersOrNull(said.clearance_m, "clearance_m"),
-    heightM: numbersOrNull(said.height_m, "height_m"),
-  };
-}
-
-function numbersOrNull(value: unknown, where: string): (number | null)[] {
-  return list(value, where).map((one) => (one === null ? null : finite(one, where)));
 }
 
 const LEVELS = ["ok", "warn", "error", "error"] as const;

@@ -10,10 +10,10 @@ import { Files } from "./loader";
 import { keypointsFromMarkers } from "./markers";
 import { GROUPS, keepParameters, readParameters } from "./parameters";
 import { rawBytes, readPath, readTour } from "./path";
-import { applyProfile, type Profile } from "./playback";
 import { keepSettings, storedSettings } from "./settings";
 import { initialState, Store } from "./store";
 import { BROWSER_CLOCK, Wire, type Clock, type SocketLike, type WireListener } from "./wire";
+import { openInWorker } from "./worker_socket";
 
 const ADMISSION_AGAIN_MS = 2000;
 /** Others may change parameters too, and no topic says so. */
@@ -26,7 +26,6 @@ export class Client implements WireListener {
   private readonly desk: EditDesk;
   private readonly loader: Files;
   private namespace = "/walk";
-  private profile: Profile | null = null;
 
   constructor(
     makeSocket: () => SocketLike,
@@ -141,8 +140,6 @@ export class Client implements WireListener {
     on("bridge/files", "std_msgs/String", (message) => this.loader.announced(answers.files(message)));
     on("bridge/session", "std_msgs/String", (message) => store.set("session", answers.session(message)));
     on("/diagnostics", "diagnostic_msgs/DiagnosticArray", (message) => this.takeStatuses(message));
-    const profile = { type: "std_msgs/String", compression: "cbor", optional: true } as const;
-    wire.subscribe(this.name("bridge/profile"), profile, (message) => this.takeProfile(answers.profile(message)));
     for (const topic of ["playback/seek", "playback/speed"]) wire.advertise(this.name(topic), SEEK_TYPE);
     wire.advertise(this.name("keypoint_edits"), "visualization_msgs/InteractiveMarkerFeedback");
     wire.advertise(this.name("study_events"), "diagnostic_msgs/DiagnosticArray");
@@ -152,7 +149,6 @@ export class Client implements WireListener {
     const { path } = this.store.state;
     try {
       readPath(rawBytes(message), path);
-      if (this.profile) applyProfile(path, this.profile);
     } finally {
       this.store.touch("path");
     }
@@ -161,12 +157,6 @@ export class Client implements WireListener {
   private takeTour(message: unknown): void {
     readTour(rawBytes(message), this.store.state.tour);
     this.store.touch("tour");
-  }
-
-  /** A profile may come before its path: it is kept until then. */
-  private takeProfile(profile: Profile): void {
-    this.profile = profile;
-    if (applyProfile(this.store.state.path, profile)) this.store.touch("path");
   }
 
   private takeStatuses(message: unknown): void {
@@ -193,7 +183,7 @@ export class Client implements WireListener {
 export async function browserClient(): Promise<Client> {
   await useAddressToken(window.location, window.history);
   const secret = clientSecret(window.sessionStorage);
-  const client = new Client(() => new WebSocket(socketUrl(window.location, secret)) as unknown as SocketLike);
+  const client = new Client(() => openInWorker(socketUrl(window.location, secret)));
   client.store.set("settings", storedSettings(window.localStorage));
   client.store.subscribe("settings", () => keepSettings(window.localStorage, client.store.state.settings));
   return client;

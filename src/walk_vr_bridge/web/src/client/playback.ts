@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
-/** Where the walker is at a time, and how near it comes to things on the way. */
+/** Where the walker is at a time. */
 
 import type { PathState, PlaybackState } from "./state";
 
@@ -9,22 +9,6 @@ export function playbackTimeS(playback: PlaybackState, nowMs: number): number {
   if (!playback.playing) return playback.timeS;
   const timeS = playback.timeS + (playback.speed * (nowMs - playback.atMs)) / 1000;
   return Math.min(playback.durationS, Math.max(0, timeS));
-}
-
-export interface Profile {
-  readonly revision: string;
-  readonly clearanceM: readonly (number | null)[];
-  readonly heightM: readonly (number | null)[];
-}
-
-/** Fills clearance and height in where the profile is of this very path; says whether it is. */
-export function applyProfile(path: PathState, profile: Profile): boolean {
-  if (profile.revision !== path.revision || profile.clearanceM.length !== path.count) return false;
-  for (let row = 0; row < path.count; row++) {
-    path.clearanceM[row] = profile.clearanceM[row] ?? NaN;
-    path.heightM[row] = profile.heightM[row] ?? NaN;
-  }
-  return true;
 }
 
 export interface PathPoint {

@@ -34,8 +34,6 @@ export interface SubscribeOptions {
   readonly type: string;
   readonly compression?: "none" | "cbor" | "cbor-raw";
   readonly throttleMs?: number;
-  /** The server may not have the topic: its refusal is nothing to tell the user. */
-  readonly optional?: boolean;
 }
 
 export interface WireListener {
@@ -62,7 +60,6 @@ interface Call {
 }
 
 const OPEN = 1;
-const OPTIONAL = "optional:";
 const FIRST_RETRY_MS = 250;
 const LAST_RETRY_MS = 8000;
 const CALL_LIMIT_MS = 15000;
@@ -152,8 +149,8 @@ export class Wire {
   private askFor(topic: string): void {
     const wanted = this.subscriptions.get(topic);
     if (!wanted) return;
-    const { type, compression = "none", throttleMs = 0, optional = false } = wanted;
-    const id = (optional ? OPTIONAL : "subscribe:") + topic;
+    const { type, compression = "none", throttleMs = 0 } = wanted;
+    const id = `subscribe:${topic}`;
     this.send({ op: "subscribe", id, topic, type, compression, throttle_rate: throttleMs, queue_length: 1 });
   }
 
@@ -191,8 +188,7 @@ export class Wire {
     }
     if (operation.op === "publish") this.deliver(operation);
     else if (operation.op === "service_response") this.answer(operation);
-    else if (operation.op === "status" && !String(operation.id).startsWith(OPTIONAL))
-      this.listener.complained(String(operation.msg ?? ""));
+    else if (operation.op === "status") this.listener.complained(String(operation.msg ?? ""));
   }
 
   private deliver(operation: Record<string, unknown>): void {

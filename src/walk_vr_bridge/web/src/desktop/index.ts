@@ -29,8 +29,8 @@ import { Stroll } from "./stroll";
 import { Toasts } from "./toasts";
 import type { Viewpoint, ViewpointName } from "./viewpoint";
 
-/** What measuring along the path may take of a frame. */
-const MEASURE_MS = 3;
+/** What measuring along the path may take of a frame, as a part of it: where frames are slow, more is measured in each. */
+const MEASURE_PART = 0.2;
 /** In a headset a frame has a ninetieth of a second for everything [ms]. */
 const MEASURE_XR_MS = 1;
 
@@ -91,8 +91,8 @@ export class Desktop {
       help: showHelp,
     });
     this.followStore(canvas);
-    const measurer = new PathMeasurer(client.store, () => stage.models?.bvh ?? null);
-    view.onFrame(() => measurer.step(view.presenting ? MEASURE_XR_MS : MEASURE_MS));
+    const measurer = new PathMeasurer(client.store, () => stage.models?.obstacles ?? null);
+    view.onFrame((s) => measurer.step(view.presenting ? MEASURE_XR_MS : 1000 * MEASURE_PART * s));
     view.onFrame((seconds) => this.frame(seconds, toasts));
     this.show("orbit");
   }
@@ -173,6 +173,7 @@ export class Desktop {
     if (this.view.presenting !== this.presenting) {
       this.presenting = this.view.presenting;
       this.page.hidden = this.presenting;
+      this.domPanel.rest(this.presenting);
       if (this.presenting) this.current.leave();
       else this.current.enter();
     }

@@ -20,6 +20,7 @@ export class DomPanel {
   private readonly tabs = new Map<TabId, HTMLButtonElement>();
   private readonly sections = new Map<string, ShownSection>();
   private shownTab: TabId | null = null;
+  private resting = false;
 
   constructor(
     private readonly model: PanelModel,
@@ -29,8 +30,16 @@ export class DomPanel {
     this.body.id = "panel-body";
     this.body.setAttribute("role", "tabpanel");
     this.root.append(this.tabList(), this.body);
-    model.onChange(() => this.update());
+    model.onChange(() => {
+      if (!this.resting) this.update();
+    });
     this.update();
+  }
+
+  /** While nobody sees the page, as in a headset, it is not brought up to date either. */
+  rest(resting: boolean): void {
+    this.resting = resting;
+    if (!resting) this.update();
   }
 
   private tabList(): HTMLElement {

@@ -122,8 +122,11 @@ function pathLegend({ settings, path }: State): Widget[] {
   if (by === "plain" || path.count === 0) return [];
   const values = by === "speed" ? path.speedMps : by === "height" ? path.heightM : path.clearanceM;
   const [low, high, unknown] = spread(values, path.count);
-  if (unknown === path.count) {
-    return [{ kind: "note", id: "path-unknown", text: "Being measured along the path …", tone: "plain" }];
+  // Heights are unknown for good where there is no floor below; clearance is known everywhere once it has been measured.
+  const left = by === "speed" ? 0 : spread(path.clearanceM, path.count)[2];
+  if (left > 0 || unknown === path.count) {
+    const part = Math.floor((100 * (path.count - left)) / path.count);
+    return [{ kind: "note", id: "path-unknown", text: `Being measured along the path: ${part} %`, tone: "plain" }];
   }
   if (by === "collisions") return [collisionNote(values, path.count)];
   if (by === "clearance") {

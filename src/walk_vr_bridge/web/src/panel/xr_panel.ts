@@ -24,6 +24,12 @@ import { paint } from "./paint";
 const SCROLL_FROM_PX = 36;
 /** How far full deflection of a stick scrolls in one call [px]. */
 const STICK_PX = 26;
+/**
+ * What changes while no hand points at the sheet, as the tour's length does 90 times a second during a drag, is drawn once it
+ * has been still for so long, at the latest after the second time [s]: drawing the sheet takes longer than a frame has.
+ */
+const STILL_S = 0.2;
+const LATEST_S = 2;
 
 interface Finger {
   /** The zone pressed; null: the sheet itself. */
@@ -45,8 +51,13 @@ export class XrPanel implements PanelPort {
   private readonly texture: CanvasTexture;
   private layout: Layout;
   private scrollPx = 0;
-  private stale = true;
+  /** The model has changed since it was laid out; for how long nobody has drawn it, and nothing more has changed [s]. */
+  private stale = false;
+  private staleS = 0;
+  private stillS = 0;
   private dirty = true;
+  /** What was laid out last, as text: two alike are drawn once. */
+  private picture = "";
   private readonly fingers = new Map<Hand, Finger>();
   private readonly at = new Map<Hand, string>();
   private readonly sliding = new Map<string, number>();
@@ -65,20 +76,29 @@ export class XrPanel implements PanelPort {
     this.mesh.renderOrder = 40;
     this.group.add(this.mesh);
     this.layout = this.laidOut();
-    model.onChange(() => (this.stale = true));
+    model.onChange(() => {
+      this.stale = true;
+      this.stillS = 0;
+    });
   }
 
   point(hand: Hand, at: Vector2 | null): void {
-    const [x, y] = at ? [at.x * WIDTH, at.y * HEIGHT] : [-1, -1];
-    const finger = this.fingers.get(hand);
-    if (finger && at) this.moveFinger(finger, x, y);
-    const key = (at && zoneAt(this.layout, x, y, this.scrollPx)?.key) || "";
+    const key = at ? this.under(hand, at.x * WIDTH, at.y * HEIGHT) : "";
     if ((this.at.get(hand) ?? "") === key) return;
     this.at.set(hand, key);
     this.dirty = true;
   }
 
+  /** Moves what the hand holds of the sheet; returns the key of the zone that it is at. */
+  private under(hand: Hand, x: number, y: number): string {
+    this.refresh();
+    const finger = this.fingers.get(hand);
+    if (finger) this.moveFinger(finger, x, y);
+    return zoneAt(this.layout, x, y, this.scrollPx)?.key ?? "";
+  }
+
   press(hand: Hand, at: Vector2): PanelPress {
+    this.refresh();
     const [x, y] = [at.x * WIDTH, at.y * HEIGHT];
     const zone = zoneAt(this.layout, x, y, this.scrollPx);
     if (zone?.look === "drag") return "add";
@@ -108,14 +128,12 @@ export class XrPanel implements PanelPort {
     this.scrollTo(this.scrollPx + amount * STICK_PX);
   }
 
-  update(): void {
+  /** Once a frame. */
+  update(seconds: number): void {
     if (!this.group.visible) return;
-    if (this.stale) {
-      this.stale = false;
-      this.layout = this.laidOut();
-      this.scrollTo(this.scrollPx);
-      this.dirty = true;
-    }
+    this.stillS += seconds;
+    this.staleS += seconds;
+    if (this.stillS > STILL_S || this.staleS > LATEST_S) this.refresh();
     if (!this.dirty) return;
     this.dirty = false;
     const pressed = new Set([...this.fingers.values()].flatMap(({ key }) => key ?? []));
@@ -126,11 +144,24 @@ export class XrPanel implements PanelPort {
 
   /** Where the zone of a widget is on the sheet, x right and y down, 0 to 1; null: not there, or scrolled away. */
   find(key: string): { x: number; y: number } | null {
+    this.refresh();
     const zone = this.layout.zones.find((one) => one.key === key || one.key.endsWith(`/${key}`));
     if (!zone) return null;
     const y = zone.y + zone.h / 2 - (zone.look === "tab" ? 0 : this.scrollPx);
     const seen = zone.look === "tab" || (y > TABS_HEIGHT && y < HEIGHT);
     return seen ? { x: (zone.x + zone.w / 2) / WIDTH, y: y / HEIGHT } : null;
+  }
+
+  /** Lays the sheet out if the model has changed; it is drawn only if it looks different. */
+  private refresh(): void {
+    this.staleS = 0;
+    if (!this.stale) return;
+    this.stale = false;
+    this.layout = this.laidOut();
+    this.scrollTo(this.scrollPx);
+    const picture = pictureOf(this.layout);
+    this.dirty ||= picture !== this.picture;
+    this.picture = picture;
   }
 
   private laidOut(): Layout {
@@ -169,4 +200,9 @@ export class XrPanel implements PanelPort {
     this.scrollPx = scroll;
     this.dirty = true;
   }
+}
+
+/** All that is seen of a layout: JSON leaves out what the zones do. */
+function pictureOf({ zones, bottom }: Layout): string {
+  return JSON.stringify([bottom, zones, zones.map(({ text, position }) => text?.(position ?? 0))]);
 }

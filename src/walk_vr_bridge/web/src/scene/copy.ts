@@ -8,6 +8,8 @@ import { SurfaceMaterial } from "./surface";
 
 const GLASS_OPACITY = 0.28;
 const THIN_OPACITY = 0.16;
+/** A pane has two faces and often a frame around it: seen through walls it must not be what is most solid. */
+const THIN_GLASS_OPACITY = 0.08;
 
 /** One showing of the building: full scale, or the miniature, which is cut by planes of its own. */
 export class BuildingCopy {
@@ -37,7 +39,9 @@ export class BuildingCopy {
   /** Lets one look through the walls. */
   setThin(thin: boolean): void {
     this.solid.material.setOpacity(thin ? THIN_OPACITY : 1);
-    this.solid.material.uniforms.uCaps.value = thin ? 0 : 1;
+    this.glass.material.setOpacity(thin ? THIN_GLASS_OPACITY : GLASS_OPACITY);
+    // Caps are drawn on back faces, which are seen through all that is thin.
+    for (const { material } of [this.solid, this.glass]) material.uniforms.uCaps.value = thin ? 0 : 1;
     this.solid.renderOrder = thin ? 15 : 0;
   }
 

@@ -32,7 +32,15 @@ export function buildModel(meshes: readonly BuildingMesh[], leastEdgeM: number):
 
 /** The tree for rays: what stands still and hides what is behind it, so neither glass nor doors. */
 export function buildBvh(meshes: readonly BuildingMesh[]): Bvh {
-  const solid = meshes.filter((mesh) => mesh.group !== "glass" && mesh.group !== "door");
+  return treeOf(meshes.filter((mesh) => mesh.group !== "glass" && mesh.group !== "door"));
+}
+
+/** The tree of what one sees through and yet cannot walk through. */
+export function buildPanes(meshes: readonly BuildingMesh[]): Bvh {
+  return treeOf(meshes.filter((mesh) => mesh.group === "glass"));
+}
+
+function treeOf(solid: readonly BuildingMesh[]): Bvh {
   const corners = new Float32Array(solid.reduce((sum, mesh) => sum + mesh.indices.length * 3, 0));
   let at = 0;
   for (const { positions, indices } of solid) {

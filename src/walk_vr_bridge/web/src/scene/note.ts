@@ -14,6 +14,7 @@ export class Note {
   private readonly canvas = document.createElement("canvas");
   private readonly texture: CanvasTexture;
   private left = 0;
+  private times = 1;
 
   constructor(
     private readonly ground: string,
@@ -29,8 +30,13 @@ export class Note {
     this.mesh.visible = false;
   }
 
-  /** Shows the sentence at a place of the room for some seconds; Infinity: until it is hidden. */
-  show(text: string, room: Vector3, seconds: number): void {
+  /**
+   * Shows the sentence at a place of the room for some seconds; Infinity: until it is hidden.
+   *
+   * @param times how much larger than a name it is written: what is to be read through has to be.
+   */
+  show(text: string, room: Vector3, seconds: number, times = 1): void {
+    this.times = times;
     this.mesh.position.copy(room);
     this.left = seconds;
     this.mesh.visible = true;
@@ -50,7 +56,7 @@ export class Note {
     if (this.left <= 0) this.mesh.visible = false;
     this.mesh.quaternion.setFromRotationMatrix(camera.matrixWorld);
     const distance = Math.max(0.25, this.mesh.position.distanceTo(eye));
-    this.mesh.scale.setScalar(this.widthAtOneMetre * distance);
+    this.mesh.scale.setScalar(this.times * this.widthAtOneMetre * distance);
   }
 
   private write(text: string): void {

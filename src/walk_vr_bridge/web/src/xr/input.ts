@@ -37,6 +37,8 @@ export class HandInput {
   source: XRInputSource | null = null;
   /** Its ray is on the panel: the stick scrolls there and moves nobody. */
   atPanel = false;
+  private readonly buttons = [this.trigger, this.squeeze, this.first, this.second, this.stick] as const;
+  private readonly flicks = [this.forward, this.left, this.right] as const;
   private pinching = false;
   /** Select events of sources that have no gamepad. */
   private selecting = false;
@@ -121,8 +123,8 @@ export class HandInput {
   private release(): void {
     this.pinching = this.selecting = false;
     this.stickX = this.stickY = 0;
-    for (const button of [this.trigger, this.squeeze, this.first, this.second, this.stick]) button.update(0);
-    for (const flick of [this.forward, this.left, this.right]) flick.update(0);
+    for (let i = 0; i < this.buttons.length; i++) this.buttons[i].update(0);
+    for (let i = 0; i < this.flicks.length; i++) this.flicks[i].update(0);
   }
 }
 

@@ -22,6 +22,8 @@ import { Travel } from "./travel";
 const MINIATURE_AT = [0, 0.82, 0.62] as const;
 const BIN_AT = [0.44, 0.92, 0.46] as const;
 const PANEL_AT = [-0.58, 1.25, 0.52] as const;
+/** A sentence in front of the eyes is so much larger than a keypoint's name. */
+const SENTENCE_TIMES = 2.2;
 
 /** The headset: both hands at work in a room with the building around and the miniature at hand. */
 export class XrRoom implements HandlerWorld {
@@ -168,7 +170,8 @@ export class XrRoom implements HandlerWorld {
   tell(sentence: string, seconds: number): void {
     this.view.camera.getWorldDirection(AHEAD);
     AHEAD.y = 0;
-    this.stage.nameNote.show(sentence, AT.copy(this.view.eye).addScaledVector(AHEAD.normalize(), 0.9), seconds);
+    AT.copy(this.view.eye).addScaledVector(AHEAD.normalize(), 0.9);
+    this.stage.nameNote.show(sentence, AT, seconds, SENTENCE_TIMES);
   }
 
   /** A or X of the stronger hand plays and pauses, B or Y undoes; of the weaker one: everything to hand, redo. */

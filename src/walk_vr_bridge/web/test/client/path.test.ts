@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { readPath } from "../../src/client/path";
-import { applyProfile, pathPoint, playbackTimeS, rowAt, samplePath } from "../../src/client/playback";
+import { pathPoint, playbackTimeS, rowAt, samplePath } from "../../src/client/playback";
 import { emptyPath } from "../../src/client/store";
 import { pathBytes, type Row } from "./path_bytes";
 
@@ -74,15 +74,5 @@ describe("playback", () => {
     expect([1000, 2000, 9000].map((now) => playbackTimeS(playback, now))).toEqual([10, 12, 13]);
     expect(playbackTimeS({ ...playback, speed: -4 }, 9000)).toBe(0);
     expect(playbackTimeS({ ...playback, playing: false }, 9000)).toBe(10);
-  });
-
-  it("takes a profile for the very path it was made of only", () => {
-    const path = emptyPath();
-    readPath(pathBytes(WALK), path);
-    const profile = { revision: path.revision, clearanceM: [1, null, 0, 2], heightM: [1.6, 1.6, 1.6, 1.6] };
-    expect(applyProfile(path, { ...profile, revision: "1" })).toBe(false);
-    expect(path.clearanceM[0]).toBeNaN();
-    expect(applyProfile(path, profile)).toBe(true);
-    expect(Array.from(path.clearanceM.subarray(0, 4))).toEqual([1, NaN, 0, 2]);
   });
 });

@@ -36,6 +36,19 @@ describe("the panel's model", () => {
     expect(asked.at(-1)).toEqual(["freeEnd", 3]);
   });
 
+  it("says nothing of clearance or collisions before all of the path has been measured", () => {
+    const { model, store } = setUp();
+    const { path } = store.state;
+    Object.assign(path, { count: 4, clearanceM: new Float32Array([0.5, 0.3, NaN, NaN]), heightM: new Float32Array(4) });
+    model.open("view");
+    for (const pathColour of ["clearance", "height", "collisions"] as const) {
+      store.patch("settings", { pathColour });
+      expect(find(model, "note", "path-unknown").text).toBe("Being measured along the path: 50 %");
+    }
+    path.clearanceM.fill(0.4, 2);
+    expect(find(model, "note", "free").text).toBe("The walker touches nothing.");
+  });
+
   it("gives a viewer no way to change anything", () => {
     const { model, store, asked } = setUp();
     store.patch("session", { role: "viewer" });
