@@ -77,7 +77,7 @@ def recorded(domain, folder, *arguments):
 def test_every_message_of_a_fast_session_is_in_the_bag_in_order(other_domain, tmp_path):
     found = recorded(other_domain, tmp_path, "--previews", "0")
     assert found["edit_results"] == list(range(1, PATHS + 1))
-    # Of a latched topic the middleware itself leaves out what was replaced before it was sent, more so on a busy machine.
+    # Of a latched topic the middleware leaves out what was replaced before it was sent, more so on a busy machine.
     assert found["path"] == sorted(set(found["path"]))
     assert found["path"][-1] == PATHS
     assert len(found["path"]) > 0.5 * PATHS
