@@ -85,7 +85,7 @@ def test_the_cut_changes_the_miniature_and_never_the_building_around(page):
 
 
 def test_walls_are_filled_where_they_are_cut(page):
-    # From straight above, a cut building shows caps: pixels of their colour, of which there are none without the cut.
+    # From straight above, a cut building shows caps: areas of their colour, of which there are none without the cut.
     shares = page.js("""
       const { view, stage } = walk;
       const gl = view.renderer.getContext();
@@ -110,10 +110,12 @@ def test_walls_are_filled_where_they_are_cut(page):
         xr.enabled = true;
         let caps = 0;
         const like = (at) => [57, 66, 77].every((value, channel) => Math.abs(pixels[at + channel] - value) < 4);
-        for (let i = 0; i < pixels.length; i += 4) if (like(i)) caps += 1;
+        // Areas, not the single pixels that shine through where two faces meet.
+        const within = (at) => [0, -4, 4, -4 * w, 4 * w].every((step) => like(at + step));
+        for (let i = 4 * w; i < pixels.length - 4 * w; i += 4) if (within(i)) caps += 1;
         return caps / (w * h);
       };
       return [await share(-1), await share(0)];
     """)
-    assert shares[1] > 0.004
+    assert shares[1] > 0.002
     assert shares[1] > 10 * shares[0]
