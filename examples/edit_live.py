@@ -51,6 +51,6 @@ pose = {**first["pose"], "position": {**first["pose"]["position"], "x": first["p
 edit = {"header": {"frame_id": "map"}, "marker_name": str(first["id"]), "event_type": MOUSE_UP, "pose": pose}
 roslibpy.Topic(ros, "/walk/keypoint_edits", "visualization_msgs/InteractiveMarkerFeedback").publish(edit)
 if answered.wait(10):
-    print(f"the move was {answer['outcome']} {answer['reason']}".rstrip())
+    print("the move was accepted" if answer["outcome"] == "accepted" else f"the move was refused: {answer['reason']}")
     changed.wait(10)
 ros.terminate()

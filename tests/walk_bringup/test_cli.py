@@ -102,6 +102,11 @@ def test_parameters_go_to_the_node_they_name_with_their_types() -> None:
     }
 
 
+def test_a_misspelt_parameter_is_told_with_the_right_name() -> None:
+    with pytest.raises(SetupError, match=r"did you mean keypoints\.cone_radius_m\?"):
+        overrides_yaml(("importance.keypoints.cone_radius=3",), ["importance"])
+
+
 @pytest.mark.parametrize("param", ["speed", "trajopt=1", "nobody.x=1", "trajopt.x=", ".x=1"])
 def test_parameters_that_do_not_read_are_refused(param: str) -> None:
     with pytest.raises(SetupError, match="--param"):

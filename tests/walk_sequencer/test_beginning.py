@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from scenes import box, building_of, shell
+from scenes import box, building_of, ramp, shell
 
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.pipeline import plan_tour
@@ -46,3 +46,11 @@ def test_a_building_without_a_way_in_leaves_the_start_free() -> None:
     building = building_of(shell(12, 4))
     assert building.entrance == -1
     assert sorted(plan_tour(building, POINTS).order.tolist()) == [0, 1, 2, 3]
+
+
+def test_without_a_way_in_a_tour_goes_upwards() -> None:
+    building = building_of(ramp(slope=0.125))
+    low, high = (2.5, 1.0, EYE + 0.06), (9.5, 1.0, EYE + 0.94)
+    for points in (np.array([low, high]), np.array([high, low])):
+        order = plan_tour(building, points).order
+        assert points[order[0], 2] < points[order[-1], 2]

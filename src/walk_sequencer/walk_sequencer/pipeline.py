@@ -136,6 +136,8 @@ def _assemble(
     if config.start < 0 and config.begin == "entrance" and config.method != "given":
         start = _begin(building, eyes[names], end, rules)
     order = names[find_order(lengths[np.ix_(names, names)], start, end, config, rules)]
+    if config.method != "given" and start < 0 and end < 0 and not rules:
+        order = _upwards(order, eyes, building.surface.step_m)
     progress("order", 1.0)
     by_pair = {(leg.start, leg.goal): leg for leg in pairs}
     legs = tuple(by_pair[a, b] if a < b else by_pair[b, a].reversed() for a, b in itertools.pairwise(order.tolist()))
@@ -168,6 +170,12 @@ def _begin(building: Building, eyes: NDArray[np.float64], end: int, rules: Rules
     may = np.array([k for k in range(len(eyes)) if k != end and not conflict(rules, k, end)], dtype=np.int64)
     first = first_from_entrance(building, eyes[may])
     return int(may[first]) if first >= 0 else -1
+
+
+def _upwards(order: NDArray[np.int64], eyes: NDArray[np.float64], step_m: float) -> NDArray[np.int64]:
+    """Returns an order that is as good either way round in the one that begins on the lower floor: people come in there."""
+    climb = eyes[order[-1], 2] - eyes[order[0], 2] if len(order) else 0.0
+    return order[::-1] if climb < -step_m else order
 
 
 def _eyes(roadmap: Roadmap | None, stands: dict[int, Stand], count: int) -> NDArray[np.float64]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import sys
+import threading
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,7 @@ class TrajoptNode(WalkNode):
         self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
         self._path_ns = 0
+        self._paying = threading.Lock()
         self._owed: tuple[Trajectory, int] | None = None  # with its stamp, not published yet
         self.offer("path", "trajectory", "path_results")
         for topic in ("keypoints", "keypoint_markers", "tour"):
@@ -159,9 +161,11 @@ class TrajoptNode(WalkNode):
         super().publish_diagnostics()
 
     def _pay(self) -> None:
-        owed, self._owed = self._owed, None
-        if owed is not None:
-            self.publish("trajectory", trajectory_to_bytes(*owed))
+        # The timer and whoever answers edits may both be here: the later trajectory has to come out last.
+        with self._paying:
+            owed, self._owed = self._owed, None
+            if owed is not None:
+                self.publish("trajectory", trajectory_to_bytes(*owed))
 
     def _store(self, topic: str, msg: Any) -> None:
         self._inbox.store(topic, msg)

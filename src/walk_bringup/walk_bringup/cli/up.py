@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+import difflib
 import json
 import os
 import re
@@ -19,6 +21,7 @@ from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
 from walk_bringup.cli.processes import Child, Supervisor
 from walk_bringup.cli.units import UnitOfLength
+from walk_bringup.parameters import NODE_CONFIGS, SHARED
 from walk_vr_bridge.config import BridgeConfig
 
 NODES = {
@@ -177,8 +180,22 @@ def overrides_yaml(params: tuple[str, ...], nodes: list[str]) -> str:
             raise SetupError(f"--param {param!r} does not read NODE.NAME=VALUE, such as trajopt.timing.speed_mps=1.0")
         if node not in nodes:
             raise SetupError(f"--param {param!r}: there is no node {node!r}; nodes: {', '.join(nodes)}")
+        _check_name(param, node, name)
         found.setdefault(node, []).append(f"    {name}: {_scalar(value)}")
     return "".join("\n".join([f"/**/{node}:", "  ros__parameters:", *lines, ""]) for node, lines in found.items())
+
+
+def _check_name(param: str, node: str, name: str) -> None:
+    """Refuses a name that none of the node's config classes has: the node itself would start without a word."""
+    group, _, field = name.partition(".")
+    config = {**SHARED, **NODE_CONFIGS.get(node, {})}.get(group)
+    if config is None:
+        return
+    fields = [known.name for known in dataclasses.fields(config)]
+    if field not in fields:
+        near = difflib.get_close_matches(field, fields, 1)
+        hint = f"did you mean {group}.{near[0]}?" if near else f"it has {', '.join(fields)}"
+        raise SetupError(f"--param {param!r}: {node} has no parameter {name!r}; {hint}")
 
 
 def _scalar(value: str) -> str:
