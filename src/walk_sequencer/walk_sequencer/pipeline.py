@@ -173,7 +173,7 @@ def _begin(building: Building, eyes: NDArray[np.float64], end: int, rules: Rules
 
 
 def _upwards(order: NDArray[np.int64], eyes: NDArray[np.float64], step_m: float) -> NDArray[np.int64]:
-    """Returns an order that is as good either way round in the one that begins on the lower floor: people come in there."""
+    """Returns an order, as good either way round, so that it begins on the lower floor: there people come in."""
     climb = eyes[order[-1], 2] - eyes[order[0], 2] if len(order) else 0.0
     return order[::-1] if climb < -step_m else order
 

@@ -191,7 +191,7 @@ def _check_name(param: str, node: str, name: str) -> None:
     config = {**SHARED, **NODE_CONFIGS.get(node, {})}.get(group)
     if config is None:
         return
-    fields = [known.name for known in dataclasses.fields(config)]
+    fields = [known.name for known in dataclasses.fields(config)]  # type: ignore[arg-type]
     if field not in fields:
         near = difflib.get_close_matches(field, fields, 1)
         hint = f"did you mean {group}.{near[0]}?" if near else f"it has {', '.join(fields)}"
