@@ -14,6 +14,7 @@ from scenes import building_of, two_rooms
 from walk_building.pipeline import load_building
 from walk_vr_bridge.config import BridgeConfig
 from walk_vr_bridge.content import content
+from walk_vr_bridge.files import Files
 from walk_vr_bridge.model.glb import batches, write_glb
 from walk_vr_bridge.model.outline import outline
 from walk_vr_bridge.model.pieces import Piece, compact, group_of, pieces_of
@@ -162,6 +163,24 @@ def test_a_large_volume_is_thinned_out_in_place():
     # The middle of the first voxel stays where it was.
     assert made.description["origin"][0] + 0.5 == 1.0 + 0.25
     assert np.prod(made.description["shape"]) <= 300
+
+
+def test_a_volume_can_be_read_after_the_next_one_has_come():
+    files, made, revisions = Files(), {}, []
+    assert (files.get("/importance.json").status, files.get("/importance.bin").status) == (503, 503)
+    for n in (4, 5, 6):
+        source = Map(n)
+        source.stamp_ns += n
+        one = volume(source, "hash")
+        files.set_volume(one)
+        revisions.append(one.description["revision_ns"])
+        made[revisions[-1]] = one.data
+    oldest, before, newest = revisions
+    assert files.get("/importance.bin").data == files.get("/importance.bin", newest).data == made[newest]
+    assert files.get("/importance.bin", before).data == made[before]
+    assert files.get("/importance.bin", oldest).status == files.get("/importance.bin", "x").status == 409
+    files.no_volume()
+    assert files.get("/importance.bin", before).status == 503
 
 
 def test_a_building_is_described_as_it_is():

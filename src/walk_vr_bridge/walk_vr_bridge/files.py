@@ -26,7 +26,9 @@ class Files:
 
     def __init__(self) -> None:
         self._building: dict[str, Content] | Missing = Missing(status=503, reason="the building is being loaded")
-        self._importance: dict[str, Content] | Missing = Missing(status=503, reason="there is no importance map yet")
+        self._importance: Content | Missing = Missing(status=503, reason="there is no importance map yet")
+        # By revision, the newest last; the one before it is for who read its description just before it was replaced.
+        self._volumes: dict[str, Content] = {}
         self._told = {"building": "", "building_etag": "", "miniature_etag": "", "importance_ns": ""}
 
     def set_scene(self, scene: Scene) -> None:
@@ -41,11 +43,11 @@ class Files:
 
     def set_volume(self, volume: Volume) -> None:
         """Serves an importance volume."""
-        self._importance = {
-            "/importance.json": content(orjson.dumps(volume.description), "application/json"),
-            # Level 1: a map is looked at for seconds until the next one comes.
-            "/importance.bin": content(volume.data, "application/octet-stream", level=1),
-        }
+        # Level 1: a map is looked at for seconds until the next one comes.
+        data = content(volume.data, "application/octet-stream", level=1)
+        before = list(self._volumes.items())[-1:]
+        self._volumes = {**dict(before), volume.description["revision_ns"]: data}
+        self._importance = content(orjson.dumps(volume.description), "application/json")
         self._told = {**self._told, "importance_ns": volume.description["revision_ns"]}
 
     def no_building(self, reason: str, *, loading: bool) -> None:
@@ -56,6 +58,7 @@ class Files:
     def no_volume(self) -> None:
         """Serves no importance volume."""
         self._importance = Missing(status=503, reason="there is no importance map yet")
+        self._volumes = {}
         self._told = {**self._told, "importance_ns": ""}
 
     def told(self) -> dict[str, str]:
@@ -65,11 +68,18 @@ class Files:
     def get(self, path: str, revision: str | None = None) -> Content | Missing | None:
         """Returns the file of a path, why it is missing, or None for another path."""
         if path in ("/building.json", "/building.glb", "/miniature.glb"):
-            found = self._building
-        elif path in ("/importance.json", "/importance.bin"):
-            found = self._importance
-            if isinstance(found, dict) and revision not in (None, self._told["importance_ns"]):
-                return Missing(status=409, reason="there is a newer importance map: read /importance.json again")
-        else:
-            return None
-        return found if isinstance(found, Missing) else found[path]
+            return self._building if isinstance(self._building, Missing) else self._building[path]
+        if path == "/importance.json":
+            return self._importance
+        if path == "/importance.bin":
+            return self._volume(revision)
+        return None
+
+    def _volume(self, revision: str | None) -> Content | Missing:
+        volumes, described = self._volumes, self._importance
+        if isinstance(described, Missing) or not volumes:
+            return Missing(status=503, reason="there is no importance map yet")
+        if revision is None:
+            return list(volumes.values())[-1]
+        too_old = Missing(status=409, reason="there is a newer importance map: read /importance.json again")
+        return volumes.get(revision, too_old)
