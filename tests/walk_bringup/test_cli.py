@@ -11,13 +11,12 @@ import time
 from pathlib import Path
 
 import pytest
-import yaml
 
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli import executables as lookup
 from walk_bringup.cli.main import group, main
-from walk_bringup.cli.up import overrides_yaml, refuse_taken_port, ros_arguments
+from walk_bringup.cli.up import refuse_taken_port, ros_arguments
 from walk_plan.options import plan_options
 
 SOURCES = [str(path) for path in sorted((Path(__file__).resolve().parents[2] / "src").iterdir())]
@@ -89,28 +88,6 @@ def test_plan_offers_an_option_for_every_field_of_the_configs(capsys: pytest.Cap
     out = capsys.readouterr().out
     missing = [option.name for option in plan_options() if f"--{option.name}" not in out]
     assert missing == []
-
-
-def test_parameters_go_to_the_node_they_name_with_their_types() -> None:
-    nodes = ["importance", "trajopt"]
-    given = ("trajopt.timing.speed_mps=1.0", "importance.load.ignore=a=b", "importance.load.furniture=false")
-    entries = yaml.safe_load(overrides_yaml(given, nodes))
-    read = {node: entry["ros__parameters"] for node, entry in entries.items()}
-    assert read == {
-        "/**/trajopt": {"timing.speed_mps": 1.0},
-        "/**/importance": {"load.ignore": "a=b", "load.furniture": False},
-    }
-
-
-def test_a_misspelt_parameter_is_told_with_the_right_name() -> None:
-    with pytest.raises(SetupError, match=r"did you mean keypoints\.cone_radius_m\?"):
-        overrides_yaml(("importance.keypoints.cone_radius=3",), ["importance"])
-
-
-@pytest.mark.parametrize("param", ["speed", "trajopt=1", "nobody.x=1", "trajopt.x=", ".x=1"])
-def test_parameters_that_do_not_read_are_refused(param: str) -> None:
-    with pytest.raises(SetupError, match="--param"):
-        overrides_yaml((param,), ["trajopt"])
 
 
 def test_building_is_handed_on_as_an_absolute_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -239,6 +216,6 @@ def test_a_second_graph_is_not_started_over_the_first() -> None:
         other.listen()
         port = other.getsockname()[1]
         with pytest.raises(SetupError, match=rf"port {port} is taken.*ROS_DOMAIN_ID=7 ./walk up --port"):
-            refuse_taken_port((f"vr_bridge.bridge.port={port}",))
-    refuse_taken_port((f"vr_bridge.bridge.port={port}",))
-    refuse_taken_port(("vr_bridge.bridge.port=0",))
+            refuse_taken_port(port)
+    refuse_taken_port(port)
+    refuse_taken_port(0)

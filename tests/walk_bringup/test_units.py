@@ -12,7 +12,8 @@ import yaml
 
 from walk_bringup.cli.main import main
 from walk_bringup.cli.units import UNITS_M, UnitOfLength
-from walk_bringup.cli.up import NODES, load_params, overrides_yaml
+from walk_bringup.cli.overrides import overrides_yaml
+from walk_bringup.cli.up import NODES, load_params
 
 
 @pytest.mark.parametrize(("text", "metres"), [*UNITS_M.items(), ("CM", 0.01), ("0.3048", 0.3048), ("0", 0.0)])

@@ -28,6 +28,14 @@ NODE_CONFIGS: Mapping[str, Mapping[str, type[Config]]] = {
 
 SHARED: Mapping[str, type[Config]] = {"load": LoadOptions, "walker": Walker}
 
+NODE_TEXTS: Mapping[str, tuple[str, ...]] = {
+    "importance": ("building", "cache_dir", "keypoints_file"),
+    "sequencer": ("building", "state_dir"),
+    "trajopt": ("building", "state_dir"),
+    "vr_bridge": ("building", "certificate_dir"),
+}
+"""Parameters by node that are no config's: paths of files and folders."""
+
 _HEADER = """\
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0

@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-import dataclasses
-import difflib
-import json
 import os
-import re
 import socket
 import tempfile
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import click
@@ -19,9 +16,12 @@ from walk_bag.keypoint_files import read_keypoints
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
+from walk_bringup.cli.overrides import Configs, checked, overrides_yaml, read_params, read_params_file
 from walk_bringup.cli.processes import Child, Supervisor
 from walk_bringup.cli.units import UnitOfLength
-from walk_bringup.parameters import NODE_CONFIGS, SHARED
+from walk_building.config import Config
+from walk_building.loaders import check_file, load_model
+from walk_building.model import LoadOptions
 from walk_vr_bridge.config import BridgeConfig
 
 NODES = {
@@ -31,6 +31,8 @@ NODES = {
     "vr_bridge": "walk_vr_bridge",
 }
 """The nodes and their packages, in the order of the data flow."""
+
+STATE_THEIR_UNIT = (".ifc", ".ifczip")
 
 TOPICS = "importance_map, suggested_keypoints, keypoints, pairwise_paths, tour, path, trajectory, /diagnostics"
 
@@ -82,9 +84,13 @@ def up(
       ./walk up building.ifc --param trajopt.timing.speed_mps=1.0 --param importance.keypoints.count=12
     """
     params = (*load_params(units, up_axis), *keypoint_params(keypoints_file), *bridge_params(lan, port), *params)
-    if params_file is None:
-        refuse_taken_port(params)
     shared = ros_arguments(building, params_file, namespace, log_level)
+    configs = start_configs(params, params_file, namespace)
+    if building is not None:
+        refuse_unusable(building, configs.values())
+    bridge = configs["vr_bridge"]["bridge"]
+    assert isinstance(bridge, BridgeConfig)
+    refuse_taken_port(bridge.port)
     with tempfile.TemporaryDirectory(prefix="walk_") as folder:
         own = Path(folder) / "params.yaml"
         own.write_text(overrides_yaml(params, list(NODES)), encoding="utf-8")
@@ -119,9 +125,41 @@ def bridge_params(lan: bool, port: int | None) -> tuple[str, ...]:
 
 
 def load_params(units_m: float | None, up_axis: str | None) -> tuple[str, ...]:
-    """Returns what the options about the building's file mean as parameters: all nodes read the same file."""
+    """Returns what the options about the building's file mean as parameters: all nodes read the same file.
+
+    Raises:
+        ParameterError: The unit is none that a file could have.
+    """
     given = {"units_m": units_m, "up": up_axis}
-    return tuple(f"{node}.load.{name}={value}" for name, value in given.items() if value is not None for node in NODES)
+    chosen = {name: value for name, value in given.items() if value is not None}
+    LoadOptions(**chosen)  # type: ignore[arg-type]  # refused under its own name, not under that of a node's parameter
+    return tuple(f"{node}.load.{name}={value}" for name, value in chosen.items() for node in NODES)
+
+
+def start_configs(params: tuple[str, ...], params_file: Path | None, namespace: str) -> Configs:
+    """Returns the configs that the nodes will start with.
+
+    A node would refuse a bad value by itself, but only once it runs, and the others would go on without it.
+
+    Raises:
+        SetupError: A parameter is misspelt, or its value is not what it may be.
+    """
+    nodes = list(NODES)
+    from_file = read_params_file(params_file, nodes, namespace) if params_file is not None else []
+    return checked([*from_file, *read_params(params, nodes)], nodes)
+
+
+def refuse_unusable(building: Path, configs: Iterable[Mapping[str, Config]]) -> None:
+    """Raises BuildingError where the nodes could not load the file, each of them for itself.
+
+    IFC files are only looked at: they say their unit, and reading one takes seconds that the nodes need once more.
+    """
+    check_file(building)
+    if building.suffix.lower() in STATE_THEIR_UNIT:
+        return
+    for options in {group["load"] for group in configs}:
+        assert isinstance(options, LoadOptions)
+        load_model(building, options)
 
 
 def keypoint_params(file: Path | None) -> tuple[str, ...]:
@@ -132,20 +170,18 @@ def keypoint_params(file: Path | None) -> tuple[str, ...]:
     return (f"importance.keypoints_file={file.resolve()}",)
 
 
-def refuse_taken_port(params: tuple[str, ...]) -> None:
+def refuse_taken_port(port: int) -> None:
     """Raises SetupError where the page's port is taken: two graphs that share a domain would disturb each other."""
-    given = [value for name, _, value in (param.partition("=") for param in params) if name == "vr_bridge.bridge.port"]
-    port = given[-1] if given else str(BridgeConfig().port)
-    if not port.isdigit() or not 0 < int(port) < 2**16:
-        return  # any free one; what is no port at all, the bridge itself refuses
+    if port == 0:
+        return  # any free one
     with socket.socket() as probe:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            probe.bind(("127.0.0.1", int(port)))
+            probe.bind(("127.0.0.1", port))
         except OSError as error:
             raise SetupError(
                 f"port {port} is taken, most likely by another ./walk up: end that one, or start this one beside it "
-                f"with a port and a ROS domain of its own: ROS_DOMAIN_ID=7 ./walk up --port {int(port) % 65535 + 1}"
+                f"with a port and a ROS domain of its own: ROS_DOMAIN_ID=7 ./walk up --port {port % 65535 + 1}"
             ) from error
 
 
@@ -164,40 +200,3 @@ def ros_arguments(building: Path | None, params_file: Path | None, namespace: st
     if building is not None:
         arguments += ["-p", f"building:={building.resolve()}"]
     return arguments
-
-
-def overrides_yaml(params: tuple[str, ...], nodes: list[str]) -> str:
-    """Returns a parameter file for parameters given as NODE.NAME=VALUE.
-
-    Raises:
-        SetupError: One of them reads otherwise or names no node.
-    """
-    found: dict[str, list[str]] = {}
-    for param in params:
-        target, equals, value = param.partition("=")
-        node, dot, name = target.partition(".")
-        if not (equals and dot and name and value):
-            raise SetupError(f"--param {param!r} does not read NODE.NAME=VALUE, such as trajopt.timing.speed_mps=1.0")
-        if node not in nodes:
-            raise SetupError(f"--param {param!r}: there is no node {node!r}; nodes: {', '.join(nodes)}")
-        _check_name(param, node, name)
-        found.setdefault(node, []).append(f"    {name}: {_scalar(value)}")
-    return "".join("\n".join([f"/**/{node}:", "  ros__parameters:", *lines, ""]) for node, lines in found.items())
-
-
-def _check_name(param: str, node: str, name: str) -> None:
-    """Refuses a name that none of the node's config classes has: the node itself would start without a word."""
-    group, _, field = name.partition(".")
-    config = {**SHARED, **NODE_CONFIGS.get(node, {})}.get(group)
-    if config is None:
-        return
-    fields = [known.name for known in dataclasses.fields(config)]  # type: ignore[arg-type]
-    if field not in fields:
-        near = difflib.get_close_matches(field, fields, 1)
-        hint = f"did you mean {group}.{near[0]}?" if near else f"it has {', '.join(fields)}"
-        raise SetupError(f"--param {param!r}: {node} has no parameter {name!r}; {hint}")
-
-
-def _scalar(value: str) -> str:
-    # Numbers and truth values as they are, everything else as a text that YAML cannot misread.
-    return value if re.fullmatch(r"true|false|[-+]?\d+(\.\d*)?([eE][-+]?\d+)?", value) else json.dumps(value)

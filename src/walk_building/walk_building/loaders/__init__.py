@@ -16,7 +16,7 @@ from walk_building.loaders.raw import Loader, PartFilter, RawMesh, RawModel
 from walk_building.model import LoadOptions, Model
 from walk_building.progress import Progress, no_progress
 
-__all__ = ["LOADERS", "Loader", "PartFilter", "RawMesh", "RawModel", "load_model"]
+__all__ = ["LOADERS", "Loader", "PartFilter", "RawMesh", "RawModel", "check_file", "load_model"]
 
 LOADERS: dict[str, Loader] = {
     ".ifc": load_ifc,
@@ -45,8 +45,7 @@ def load_model(path: Path | str, options: LoadOptions | None = None, progress: P
     path = Path(path)
     options = LoadOptions() if options is None else options
     part_filter = PartFilter(options.ignore)
-    _check_readable(path)
-    loader = _loader_for(path)
+    loader = check_file(path)
     progress("load", 0.0)
     try:
         raw = loader(path, options, part_filter, progress)
@@ -56,6 +55,12 @@ def load_model(path: Path | str, options: LoadOptions | None = None, progress: P
     model = assemble(raw, path, options, part_filter, name)
     progress("load", 1.0)
     return model
+
+
+def check_file(path: Path) -> Loader:
+    """Returns the loader of a building file that is there, not empty and of a known suffix; raises BuildingError."""
+    _check_readable(path)
+    return _loader_for(path)
 
 
 def _check_readable(path: Path) -> None:
