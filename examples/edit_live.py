@@ -3,7 +3,7 @@
 """A client in Python without ROS: moves a keypoint of a running graph through the bridge.
 
     ./walk up                                   # in one terminal
-    ./walk python examples/edit_live.py         # in another
+    ./walk python examples/edit_live.py         # in another; HOST:PORT behind it for a page that is elsewhere
 
 Any rosbridge client can do this from any machine; this one is roslibpy (pip install roslibpy).
 """
@@ -15,9 +15,18 @@ import roslibpy
 
 MOUSE_UP = 5  # visualization_msgs/InteractiveMarkerFeedback: a release, the edit that is kept
 
-host, _, port = (sys.argv[1] if len(sys.argv) > 1 else "localhost:8765").partition(":")
+address = sys.argv[1] if len(sys.argv) > 1 else "localhost:8765"
+host, _, port = address.partition(":")
+if not (port or "8765").isdigit():
+    sys.exit(f"{address!r} is no address; expected HOST or HOST:PORT, such as localhost:8765")
 ros = roslibpy.Ros(host=host, port=int(port or 8765))
-ros.run(timeout=10)
+try:
+    ros.run(timeout=10)
+except roslibpy.core.RosTimeoutError:
+    sys.exit(
+        f"no planner answers at {address}: start one with ./walk up in another terminal, wait for the address that it "
+        "prints, and give that here where it is another: edit_live.py HOST:PORT"
+    )
 
 markers: dict = {}
 answer: dict = {}

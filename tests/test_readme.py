@@ -12,9 +12,11 @@ import shutil
 import signal
 import subprocess
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from graph.domains import own_domain
 
 from walk_bringup.bootstrap.commands import COMMANDS
 
@@ -50,6 +52,13 @@ def commands() -> list[tuple[str, str]]:
 
 
 @pytest.fixture(scope="module")
+def domain() -> Iterator[int]:
+    """A ROS domain for all commands: on the machine's ordinary one somebody else's graph may run."""
+    with own_domain() as number:
+        yield number
+
+
+@pytest.fixture(scope="module")
 def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     if not (ROOT / "build" / "walk" / "environment.json").exists():
         pytest.skip("this checkout was not set up by ./walk")
@@ -66,11 +75,13 @@ def folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 @pytest.mark.slow
 @pytest.mark.ros
 @pytest.mark.parametrize(("page", "command"), commands())
-def test_command_of_the_page_runs(page: str, command: str, folders: dict[str, Path]) -> None:
+def test_command_of_the_page_runs(page: str, command: str, folders: dict[str, Path], domain: int) -> None:
     folder = folders[page]
     wanted = f"{command} --help" if command in OURSELVES else command
+    if command.startswith("./walk up"):
+        wanted += " --port 0"  # the page's own port may be somebody's
     # The journal of edits goes to the folder, not to the home of whoever runs the tests.
-    environment = os.environ | {"XDG_STATE_HOME": str(folder / "state")}
+    environment = os.environ | {"XDG_STATE_HOME": str(folder / "state"), "ROS_DOMAIN_ID": str(domain)}
     process = subprocess.Popen(
         shlex.split(wanted), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment
     )

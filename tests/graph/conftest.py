@@ -4,7 +4,7 @@
 
 import pytest
 from graph.domains import own_domain
-from graph.processes import Graph, Observer
+from graph.processes import Graph, Observer, settled
 from graph.rooms import make_rooms
 
 
@@ -26,6 +26,16 @@ def observer(graph):
     observer = Observer(graph.domain)
     yield observer
     observer.close()
+
+
+@pytest.fixture(scope="module")
+def running(graph, observer):
+    """The graph at rest, started from its end, so that every node has to wait for its input."""
+    for name in ("trajopt", "sequencer", "importance"):
+        graph.start(name)
+    observer.wait_for_all()
+    settled(observer)
+    return graph
 
 
 @pytest.fixture

@@ -7,16 +7,21 @@ import json
 import shutil
 import signal
 import subprocess
+import sys
 import threading
 import time
 import urllib.request
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from walk_ros import conversions as c
 
 pytestmark = pytest.mark.ros
 
 WEB = Path(__file__).resolve().parents[2] / "src" / "walk_vr_bridge" / "web"
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "edit_live.py"
 LIMIT_S = 40.0
 
 
@@ -198,6 +203,42 @@ def test_roslib_drives_a_whole_session(port):
     assert told["outcomes"] == ["accepted"] * 3
     assert told["undone"] is True
     assert told["paths"] >= 4
+
+
+def edit_live(graph, *arguments):
+    """Runs the example as a user does, from a folder of their own."""
+    command = [sys.executable, str(EXAMPLE), *arguments]
+    return subprocess.run(
+        command, cwd=graph.folder, env=graph.environment(), capture_output=True, text=True, timeout=2 * LIMIT_S
+    )
+
+
+def test_the_example_of_a_client_moves_a_keypoint(graph, observer, port):
+    for _ in range(100):  # what the tests before have said is still on its way
+        observer.executor.spin_once(timeout_sec=0.01)
+    before = c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
+    done = edit_live(graph, f"localhost:{port}")
+    assert done.returncode == 0, done.stderr
+    assert f"{len(before.ids)} keypoints: " in done.stdout
+    # Two paths: the one that there was, and the one after the edit.
+    assert done.stdout.count("a path of ") >= 2 and "the move was accepted" in done.stdout
+    observer.wait(
+        lambda: (
+            not np.allclose(
+                c.keypoint_markers_from_msg(observer.last("keypoint_markers")).poses.positions, before.poses.positions
+            )
+        ),
+        "the keypoint elsewhere",
+    )
+
+
+@pytest.mark.parametrize(
+    ("address", "said"), [("localhost:9", "start one with ./walk up"), ("localhost:x", "expected HOST or HOST:PORT")]
+)
+def test_the_example_says_what_to_do_where_no_planner_is(graph, address, said):
+    done = edit_live(graph, address)
+    assert done.returncode == 1
+    assert said in done.stderr and "Traceback" not in done.stderr and done.stderr.count("\n") == 1
 
 
 def test_a_bridge_that_is_told_to_end_ends_with_0(graph, port):

@@ -18,14 +18,6 @@ pytestmark = pytest.mark.ros
 
 
 @pytest.fixture(scope="module")
-def running(graph, observer):
-    for name in ("trajopt", "sequencer", "importance"):
-        graph.start(name)
-    observer.wait_for_all()
-    return graph
-
-
-@pytest.fixture(scope="module")
 def building(rooms):
     return load_building(rooms)
 

@@ -32,15 +32,6 @@ WISHES += [Change.REDO, Change.REORDER, Change.LOCK, Change.UNLOCK, Change.START
 WISHES += [Change.DWELL, Change.LOOK_AT, Change.EARLIER, Change.LATER]
 
 
-@pytest.fixture(scope="module")
-def running(graph, observer):
-    for name in ("trajopt", "sequencer", "importance"):
-        graph.start(name)
-    observer.wait_for_all()
-    settled(observer)
-    return graph
-
-
 class Editors:
     """Sends edits of every kind without waiting, each under a name of its own, by which the journal knows it."""
 

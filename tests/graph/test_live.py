@@ -20,15 +20,6 @@ PULL_M = 0.26  # a body's radius: by so much a keypoint is pulled off a wall
 
 
 @pytest.fixture(scope="module")
-def running(graph, observer):
-    for name in ("trajopt", "sequencer", "importance"):
-        graph.start(name)
-    observer.wait_for_all()
-    settled(observer)
-    return graph
-
-
-@pytest.fixture(scope="module")
 def sweep(rooms):
     building = load_building(rooms)
     return BodySweep(building.geometry, building.walker)

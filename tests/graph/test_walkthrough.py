@@ -31,15 +31,6 @@ LATCHED = [
 
 
 @pytest.fixture(scope="module")
-def running(graph, observer):
-    """The graph, started from its end, so that every node has to wait for its input."""
-    for name in ("trajopt", "sequencer", "importance"):
-        graph.start(name)
-    observer.wait_for_all()
-    return graph
-
-
-@pytest.fixture(scope="module")
 def building(rooms):
     return load_building(rooms)
 

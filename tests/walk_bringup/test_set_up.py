@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
+import io
 import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -18,6 +20,7 @@ from walk_bringup.bootstrap.command import run_logged
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.bootstrap.layout import Layout
 from walk_bringup.bootstrap.machine import Machine, look
+from walk_bringup.bootstrap.progress import StageLine
 from walk_bringup.bootstrap.stamps import read_json, write_json
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -201,6 +204,20 @@ def test_failed_tool_leaves_its_output_in_a_log(tmp_path: Path) -> None:
         run_logged(command, log, cwd=tmp_path, env=os.environ, on_line=seen.append, explain=lambda text: "because.")
     assert seen == ["one", "two"]
     assert log.read_text() == "one\ntwo\n"
+
+
+def test_a_long_stage_goes_on_saying_so_where_there_is_no_terminal() -> None:
+    out = io.StringIO()
+    with StageLine("Python packages", 8, out, beat_s=0.02) as line:
+        line.update(3, "numpy")
+        until = time.monotonic() + 10.0
+        while "goes on" not in out.getvalue() and time.monotonic() < until:
+            time.sleep(0.01)
+    lines = out.getvalue().splitlines()
+    assert lines[0] == "Python packages ..."
+    assert "goes on" in lines[1] and lines[1].endswith(", 3 of 8")
+    assert "done in" in lines[-1]
+    assert "\r" not in out.getvalue()
 
 
 def test_second_set_up_has_nothing_to_do_quickly() -> None:

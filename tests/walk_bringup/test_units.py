@@ -11,8 +11,8 @@ import trimesh
 import yaml
 
 from walk_bringup.cli.main import main
-from walk_bringup.cli.units import UNITS_M, UnitOfLength
 from walk_bringup.cli.overrides import overrides_yaml
+from walk_bringup.cli.units import UNITS_M, UnitOfLength
 from walk_bringup.cli.up import NODES, load_params
 
 

@@ -104,6 +104,24 @@ def test_coarse_coordinates_are_said(tmp_path: Path) -> None:
     assert not any("steps" in warning for warning in load_model(double).warnings)
 
 
+def test_a_part_that_fits_32_bits_by_chance_is_no_coarse_file(tmp_path: Path) -> None:
+    """Whole metres are exact in 32 bits, wherever they are."""
+    shift = np.array([600_000.0, 5_400_000.0, 0.0])
+    whole = trimesh.creation.box(bounds=[[0, 0, 0], [10, 8, 6]]).apply_translation(shift)
+    exact = building((10, 8, 6), 3, 3).apply_translation(shift)
+    for name, meshes in (("one", [whole]), ("both", [exact, whole])):
+        path = tmp_path / f"{name}.obj"
+        lines, first = [], 1
+        for k, mesh in enumerate(meshes):
+            lines += [f"o part{k}", *("v {:.3f} {:.3f} {:.3f}".format(*v) for v in mesh.vertices)]
+            lines += ["f {} {} {}".format(*(face + first)) for face in mesh.faces]
+            first += len(mesh.vertices)
+        path.write_text("\n".join(lines) + "\n")
+        model = load_model(path)
+        assert len(model.parts) == len(meshes)
+        assert not any("32-bit" in warning for warning in model.warnings)
+
+
 def test_furniture_cannot_be_told_apart_in_a_mesh(tmp_path: Path) -> None:
     path = tmp_path / "house.stl"
     building((10, 8, 6), 3, 3).export(path)

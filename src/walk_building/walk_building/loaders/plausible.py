@@ -25,6 +25,8 @@ _ASK = "give its unit with --units (mm, cm, in, ft, or its length in metres)"
 
 # A walker's clearance of a few centimetres means nothing if walls are only known this well.
 _COARSE_M = 0.005
+# Share of the far numbers that look rounded above which the file is taken to be: about a half is to be expected.
+_ROUNDED = 0.1
 # Cosine of the angle, 18 degrees, up to which a triangle counts as facing along an axis.
 _FACING = 0.95
 
@@ -91,17 +93,24 @@ def _centre(vertices: NDArray[np.float64], faces: NDArray[np.int32], part: Part)
 def suspect_precision(meshes: Iterable[NDArray[np.float64]], units_m: float) -> list[str]:
     """Returns a warning where a file keeps far coordinates as 32-bit numbers, whose steps are then coarse.
 
+    The last bit of a number that was rounded to 32 of them is set half of the time; that of one that merely fits, such
+    as a whole metre, hardly ever.
+
     Args:
         meshes: Vertices (V, 3) of each part in the file's units.
         units_m: Length of one unit [m].
     """
-    step = 0.0
-    for vertices in meshes:
-        single = vertices.astype(np.float32)
-        if vertices.size and np.array_equal(single, vertices):
-            step = max(step, float(np.spacing(np.abs(single).max())) * units_m)
-    if step < _COARSE_M:
+    # Each number once: the corners of a building share few of them.
+    numbers = np.unique(np.concatenate([np.abs(vertices).ravel() for vertices in meshes]))
+    with np.errstate(all="ignore"):  # a vertex that no triangle names may be anything
+        single = numbers.astype(np.float32)
+        steps_m = np.spacing(single) * np.float32(units_m)
+    coarse = steps_m >= _COARSE_M
+    fits = coarse & (single == numbers)
+    rounded = fits & (single.view(np.uint32) % 2 == 1)
+    if np.count_nonzero(rounded) <= _ROUNDED * np.count_nonzero(coarse):
         return []
+    step = steps_m[fits].max()
     return [
         f"The file keeps coordinates far from the origin as 32-bit numbers, in steps of {step * 1000:.0f} mm; "
         "export it near the origin for exact walls."
