@@ -1,8 +1,13 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""A recorder misses nothing of a fast session, thins what it is told to thin, and its measurement runs."""
+"""A recorder misses nothing of a fast session, thins what it is told to thin, and can be killed; its measurement runs.
+
+WALK_KILLS says how often it is killed; 100 is the full run, by hand and for releases.
+"""
 
 import json
+import os
+import random
 import subprocess
 import sys
 import time
@@ -11,19 +16,27 @@ import numpy as np
 import pytest
 from graph.processes import LIMIT_S, Graph, Observer
 
-from walk_bag import read_bag
+from walk_bag import BagError, BagWriter, read_bag
 from walk_bag.record import main as record
 from walk_bag.record import pace
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes
-from walk_ros.topics import TOPICS, absolute_name
+from walk_ros.topics import TOPICS, absolute_name, type_name
 
 pytestmark = pytest.mark.ros
 
+KILLS = int(os.environ.get("WALK_KILLS", "6"))
 PATHS = 150
 HZ = 60.0
 LINE = np.column_stack([np.arange(200.0), np.zeros(200), np.full(200, 1.6)])
 AHEAD = np.tile([0.0, 0.0, 0.0, 1.0], (200, 1))
+
+
+def answer(k):
+    result = c.EditResult(
+        outcome=c.Outcome.ACCEPTED, keypoint="0", client_id="anna", reason="", revision_ns=k, edit_stamp_ns=k
+    )
+    return c.edit_result_to_msg(result)
 
 
 def recorded(domain, folder, *arguments):
@@ -40,18 +53,7 @@ def recorded(domain, folder, *arguments):
             talker.wait(lambda p=publisher: p.get_subscription_count() >= 2, f"the recorder to hear {name}")
         for k in range(1, PATHS + 1):
             publishers["path"].publish(c.path_to_msg(np.arange(200.0), LINE, AHEAD, k))
-            publishers["edit_results"].publish(
-                c.edit_result_to_msg(
-                    c.EditResult(
-                        outcome=c.Outcome.ACCEPTED,
-                        keypoint="0",
-                        client_id="anna",
-                        reason="",
-                        revision_ns=k,
-                        edit_stamp_ns=k,
-                    )
-                )
-            )
+            publishers["edit_results"].publish(answer(k))
             until = time.monotonic() + 1.0 / HZ
             while (left := until - time.monotonic()) > 0:
                 talker.executor.spin_once(timeout_sec=left)
@@ -91,6 +93,80 @@ def test_previews_are_thinned_to_the_rate_and_the_last_one_is_kept(other_domain,
     assert 2 <= len(found["path"]) <= 12
     assert found["path"] == sorted(set(found["path"]))
     assert found["path"][-1] == PATHS
+
+
+def test_a_recorder_killed_at_any_moment_leaves_a_bag_that_opens(other_domain, tmp_path):
+    """The real process under a stream of answers and paths: killed on its way up, while it writes, at any byte."""
+    graph, talker, dice = (
+        Graph(other_domain, tmp_path, ""),
+        Observer(other_domain, "talker", topics=()),
+        random.Random(5),
+    )
+    publishers = {
+        name: talker.node.create_publisher(TOPICS[name].type, absolute_name(name), TOPICS[name].qos)
+        for name in ("path", "edit_results")
+    }
+    sent, kept = 0, []
+
+    def talk_for(seconds):
+        nonlocal sent
+        until = time.monotonic() + seconds
+        while time.monotonic() < until:
+            sent += 1
+            publishers["edit_results"].publish(answer(sent))
+            publishers["path"].publish(c.path_to_msg(np.arange(200.0), LINE, AHEAD, sent))
+            talker.executor.spin_once(timeout_sec=0.005)
+
+    try:
+        for kill in range(KILLS):
+            name, bag = f"record{kill}", tmp_path / f"bag{kill}"
+            graph.run(name, "walk_bag.record", "--out", str(bag), "--previews", "0")
+            if dice.random() < 0.2:
+                talk_for(dice.uniform(0.0, 2.0))
+            else:
+                while "first of /walk/edit_results" not in graph.log(name):
+                    talk_for(0.05)
+                talk_for(dice.uniform(0.0, 4.0))
+            graph.kill(name)
+            if bag.exists() and any(bag.iterdir()):
+                kept.append(_unbroken(bag))
+    finally:
+        talker.close()
+        graph.close()
+    # Not only empty ones, which are those of the first second.
+    assert np.count_nonzero(kept) >= 0.3 * KILLS and max(kept) > 100, kept
+
+
+def _unbroken(bag):
+    """Asserts that a bag opens and has every answer from the first it heard to the last; returns how many messages."""
+    try:
+        messages = list(read_bag(bag))
+    except BagError:
+        # Nothing but a file that was made and not yet begun.
+        assert max(f.stat().st_size for f in bag.iterdir()) < 100
+        return 0
+    heard = [m for m in messages if m.topic.name == absolute_name("edit_results")]
+    stamps = [c.edit_result_from_msg(from_bytes(m.data, m.topic.type_name)).edit_stamp_ns for m in heard]
+    assert stamps == list(range(stamps[0], stamps[0] + len(stamps))) if stamps else True
+    for message in messages:
+        from_bytes(message.data, message.topic.type_name)
+    return len(messages)
+
+
+def test_the_type_hashes_in_a_bag_are_those_that_publishers_announce(other_domain, tmp_path):
+    """The middleware is the oracle: it has them from the installed message packages, the bag from its own library."""
+    talker = Observer(other_domain, "talker", topics=())
+    try:
+        publishers = [
+            talker.node.create_publisher(spec.type, absolute_name(name), spec.qos) for name, spec in TOPICS.items()
+        ]
+        with BagWriter(tmp_path / "bag") as writer:
+            for name, spec in TOPICS.items():
+                (info,) = talker.node.get_publishers_info_by_topic(absolute_name(name))
+                assert str(info.topic_type_hash) == writer.type_hash(type_name(spec.type)), name
+        assert len(publishers) == len(TOPICS)
+    finally:
+        talker.close()
 
 
 @pytest.mark.parametrize(("hz", "lost_s"), [(0.0, 1.0), (0.5, 2.5), (2.0, 1.0), (50.0, 1.0)])

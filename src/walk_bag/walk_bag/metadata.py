@@ -16,8 +16,24 @@ VERSION = 8
 
 
 def metadata_yaml(file: McapFile) -> str:
-    """Returns what rosbag2 wants to know of a bag of one MCAP file."""
-    about: dict[str, Any] = {
+    """Returns `metadata.yaml` of a bag of one MCAP file."""
+    return _yaml({"rosbag2_bagfile_information": _about(file)})
+
+
+def embedded_yaml(file: McapFile) -> str:
+    """Returns what rosbag2 keeps in the MCAP file itself: the same without the key above it.
+
+    With the key rosbag2 does not open the file at all: it asks for the version first, and that is not where it looks.
+    """
+    return _yaml(_about(file))
+
+
+def _yaml(document: dict[str, Any]) -> str:
+    return str(yaml.safe_dump(document, sort_keys=False))
+
+
+def _about(file: McapFile) -> dict[str, Any]:
+    return {
         "version": VERSION,
         "storage_identifier": "mcap",
         **_extent(file),
@@ -29,7 +45,6 @@ def metadata_yaml(file: McapFile) -> str:
         "custom_data": None,
         "ros_distro": "jazzy",
     }
-    return str(yaml.safe_dump({"rosbag2_bagfile_information": about}, sort_keys=False))
 
 
 def _extent(file: McapFile) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from walk_bag.pace import Pace
 from walk_bag.storage import read_topics
 from walk_bag.timeline import Timeline
 from walk_bag.topics import BagMessage, BagTopic
+from walk_ros.errors import ArgumentError
 from walk_ros.qos import reliable
 from walk_ros.raw import RawPublisher, message_type, profile
 from walk_ros.runner import run_node, user_arguments
@@ -64,10 +65,11 @@ class Replayer(RawPublisher):
             start_ns = self._timeline.start_ns + round(1e9 * self._options.start)
             while not self._pace.ended:
                 self._play(start_ns)
+                # Before a round begins again, too: of a latched topic its first message would replace the last one.
+                if not self._pace.ended:
+                    self.wait_until_received(ACKNOWLEDGE_S)
                 if not self._options.loop:
                     break
-            if not self._pace.ended:
-                self.wait_until_received(ACKNOWLEDGE_S)
         except BagError as error:
             self.get_logger().error(str(error))
         if self._options.hold:
@@ -163,14 +165,36 @@ def chosen(options: argparse.Namespace) -> Timeline:
     """
     names = {absolute_name(name, options.namespace) for name in options.topics or ()}
     # Parameter events are kept to be read: published again they would speak for nodes that are not there.
-    timeline = Timeline.of(options.bag, names or {t.name for t in read_topics(options.bag)} - {parameter_watch.TOPIC})
+    timeline = Timeline.of(options.bag, names or _playable(options.bag) - {parameter_watch.TOPIC})
     missing = names - {topic.name for topic in timeline.topics}
     if missing:
         has = ", ".join(sorted(topic.name for topic in Timeline.of(options.bag).topics))
         raise BagError(options.bag, f"has no topic {', '.join(sorted(missing))}; it has {has}")
+    foreign = [topic for topic in timeline.topics if not _installed(topic)]
+    if foreign:
+        raise BagError(options.bag, f"{foreign[0].name} cannot be played: {foreign[0].type_name} is not installed")
     if options.start > timeline.duration_s:
         raise BagError(options.bag, f"is {timeline.duration_s:.1f} s long: it cannot begin at {options.start:g} s")
     return timeline
+
+
+def _playable(bag: Path) -> set[str]:
+    """Returns the topics of a bag whose types are installed; says which are not. `ros2 bag record -a` takes all."""
+    names = set()
+    for topic in read_topics(bag):
+        if _installed(topic):
+            names.add(topic.name)
+        else:
+            sys.stderr.write(f"walk: {topic.name} is left out: its type, {topic.type_name}, is not installed\n")
+    return names
+
+
+def _installed(topic: BagTopic) -> bool:
+    try:
+        message_type(topic.type_name)
+    except ArgumentError:
+        return False
+    return True
 
 
 def main(argv: Sequence[str] | None = None) -> int:

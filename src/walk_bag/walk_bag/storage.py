@@ -6,21 +6,25 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import heapq
 import itertools
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from rosbags.highlevel import AnyReader
+import yaml
 from rosbags.interfaces import Connection, QosDurability, QosReliability
+from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from walk_bag.errors import BagError
 from walk_bag.mcap_file import McapFile, is_finished, is_mcap, read_whole_records
-from walk_bag.metadata import metadata_yaml
+from walk_bag.metadata import embedded_yaml, metadata_yaml
 from walk_bag.topics import BagMessage, BagTopic
+
+_METADATA = "metadata.yaml"
 
 
 class BagWriter:
@@ -111,13 +115,12 @@ class BagWriter:
 
     def close(self) -> None:
         """Finishes the bag: index and metadata."""
-        text = metadata_yaml(self._file)
         try:
-            self._file.finish(text)
+            self._file.finish(embedded_yaml(self._file))
             if self.path.suffix == ".mcap":
                 self._file.path.replace(self.path)
             else:
-                (self.path / "metadata.yaml").write_text(text, encoding="utf-8")
+                (self.path / _METADATA).write_text(metadata_yaml(self._file), encoding="utf-8")
         except OSError as error:
             self._file.cut()
             raise _disk_error(self._file.path, error) from error
@@ -157,50 +160,58 @@ def read_bag(
         BagError: There is no such bag, or it is damaged.
     """
     path = _existing(path)
-    broken = unfinished_file(path)
-    if broken is not None:
-        for message in _whole_messages(path, broken):
+    if unfinished_file(path) is not None:
+        for message in _whole_messages(path):
             if start_ns <= message.stamp_ns < stop_ns and (topics is None or message.topic.name in topics):
                 yield message
         return
-    with _reading(path) as reader:
-        wanted = [c for c in reader.connections if topics is None or c.topic in topics]
-        bag_topics = {c.id: _topic(c) for c in wanted}
-        # Without connections the reader would give all.
-        for connection, stamp_ns, data in reader.messages(wanted, start_ns, stop_ns) if wanted else ():
-            yield BagMessage(topic=bag_topics[connection.id], stamp_ns=stamp_ns, data=bytes(data))
+    with _reading(path) as readers:
+        parts = [_messages(reader, topics, start_ns, stop_ns) for reader in readers]
+        yield from heapq.merge(*parts, key=lambda message: message.stamp_ns)
+
+
+def _messages(reader: Reader, topics: set[str] | None, start_ns: int, stop_ns: int) -> Iterator[BagMessage]:
+    wanted = [c for c in reader.connections if topics is None or c.topic in topics]
+    bag_topics = {c.id: _topic(c) for c in wanted}
+    # Without connections the reader would give all.
+    for connection, stamp_ns, data in reader.messages(wanted, start_ns, stop_ns) if wanted else ():
+        yield BagMessage(topic=bag_topics[connection.id], stamp_ns=stamp_ns, data=bytes(data))
 
 
 def read_topics(path: Path | str) -> tuple[BagTopic, ...]:
     """Returns the topics of a bag; raises BagError as `read_bag` does."""
     path = _existing(path)
-    broken = unfinished_file(path)
-    if broken is not None:
-        found = {message.topic.name: message.topic for message in _whole_messages(path, broken)}
+    if unfinished_file(path) is not None:
+        found = {message.topic.name: message.topic for message in _whole_messages(path)}
         return tuple(found.values())
-    with _reading(path) as reader:
-        return tuple(_topic(c) for c in reader.connections)
+    with _reading(path) as readers:
+        return tuple({c.topic: _topic(c) for reader in readers for c in reader.connections}.values())
 
 
 def read_span(path: Path | str) -> tuple[int, int]:
     """Returns when the first and the last message of a bag were recorded [ns]; (0, 0) where there are none."""
     path = _existing(path)
-    broken = unfinished_file(path)
-    if broken is not None:
-        stamps = [message.stamp_ns for message in _whole_messages(path, broken)]
+    if unfinished_file(path) is not None:
+        stamps = [message.stamp_ns for message in _whole_messages(path)]
         return (min(stamps), max(stamps)) if stamps else (0, 0)
-    with _reading(path) as reader:
+    with _reading(path) as readers:
+        told = [reader for reader in readers if reader.message_count]
         # The library's end is one past the last message.
-        return (reader.start_time, reader.end_time - 1) if reader.message_count else (0, 0)
+        return (min(r.start_time for r in told), max(r.end_time for r in told) - 1) if told else (0, 0)
 
 
 def unfinished_file(path: Path) -> Path | None:
     """Returns the MCAP file of a bag whose writer did not get to close it, None if the bag is whole."""
-    files = [path] if path.is_file() else sorted(path.glob("*.mcap"))
+    files = _mcap_files(path)
     broken = [file for file in files if is_mcap(file) and not is_finished(file)]
-    if not broken and path.is_dir() and len(files) == 1 and not (path / "metadata.yaml").exists():
-        return files[0]  # closed, but killed before the directory was complete
+    if not broken and files and path.is_dir() and not (path / _METADATA).exists():
+        return files[-1]  # closed, but killed before the directory was complete
     return broken[0] if broken else None
+
+
+def _mcap_files(path: Path) -> list[Path]:
+    """Returns the MCAP files of a bag in the order in which they were written: NAME_2.mcap before NAME_10.mcap."""
+    return [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))
 
 
 def recover_bag(path: Path | str, out: Path | str) -> int:
@@ -219,12 +230,16 @@ def recover_bag(path: Path | str, out: Path | str) -> int:
         return writer.message_count
 
 
-def _whole_messages(path: Path, file: Path) -> Iterator[BagMessage]:
-    # In the order of the file, which is that of time: a recorder writes as messages come.
-    try:
-        yield from read_whole_records(file)
-    except ValueError as error:
-        raise BagError(path, f"is not a bag that can be read: {error}") from error
+def _whole_messages(path: Path) -> Iterator[BagMessage]:
+    # In the order of the files, which is that of time: a recorder writes as messages come.
+    files = _mcap_files(path)
+    for file in files:
+        try:
+            yield from read_whole_records(file)
+        except ValueError as error:
+            if len(files) == 1:
+                raise BagError(path, f"is not a bag that can be read: {error}") from error
+            # The last file of several may have been cut before its first record: the others are whole.
 
 
 def _existing(path: Path | str) -> Path:
@@ -234,14 +249,32 @@ def _existing(path: Path | str) -> Path:
 
 
 @contextlib.contextmanager
-def _reading(path: Path) -> Iterator[AnyReader]:
-    try:
-        with AnyReader([path], default_typestore=_types()) as reader:
-            yield reader
-    except GeneratorExit:
-        raise
-    except Exception as error:  # a damaged file fails anywhere inside of the library
-        raise BagError(path, f"is not a bag that can be read: {error or type(error).__name__}") from error
+def _reading(path: Path) -> Iterator[list[Reader]]:
+    """Opens the files of a bag that is whole."""
+    with contextlib.ExitStack() as stack:
+        try:
+            yield [stack.enter_context(Reader(file)) for file in _storage_files(path)]
+        except GeneratorExit:
+            raise
+        except Exception as error:  # a damaged file fails anywhere inside of the library
+            raise BagError(path, f"is not a bag that can be read: {error or type(error).__name__}") from error
+
+
+def _storage_files(path: Path) -> list[Path]:
+    """Returns what the library has to open to read a bag: its files, or the directory where they are compressed.
+
+    Asked for a directory, the library passes over a topic whose QoS in the directory's metadata is not to the letter
+    that in the file, without a word; the files themselves are read as they are.
+    """
+    if path.is_file():
+        return [path]
+    metadata = path / _METADATA
+    if not metadata.exists():
+        return sorted(path.glob("*.db3"), key=lambda file: (len(file.name), file.name)) or [path]
+    about = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
+    if about.get("compression_mode", "").lower() not in ("", "none"):
+        return [path]
+    return [path / Path(name).name for name in about["relative_file_paths"]]
 
 
 def _topic(connection: Connection) -> BagTopic:

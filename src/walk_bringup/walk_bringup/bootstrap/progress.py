@@ -16,7 +16,7 @@ BEAT_S = 15.0
 
 
 class StageLine:
-    """Shows a stage of the set-up on one line of a terminal; elsewhere as lines, at its begin, meanwhile, at its end."""
+    """Shows a stage of the set-up on one line of a terminal; elsewhere as lines at its begin, meanwhile and its end."""
 
     def __init__(self, name: str, total: int = 0, out: TextIO | None = None, beat_s: float = BEAT_S) -> None:
         self._name = name
