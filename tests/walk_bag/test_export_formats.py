@@ -5,9 +5,12 @@
 from __future__ import annotations
 
 import dataclasses
+import importlib
 import json
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
 import imageio_ffmpeg
 import numpy as np
@@ -18,7 +21,10 @@ import yaml
 from pxr import Gf, Usd, UsdGeom
 from scenes import box, model_of, two_rooms
 from scipy.spatial.transform import Rotation
+from trajectory_msgs.msg import MultiDOFJointTrajectory
 from vtkmodules.vtkCommonCore import vtkLogger
+from vtkmodules.vtkIOImport import vtkGLTFImporter
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
 
 from walk_bag.errors import ExportError
 from walk_bag.exports import EXPORTERS, export_ride
@@ -27,6 +33,8 @@ from walk_bag.exports.renderer import Renderer
 from walk_bag.exports.ride import ExportConfig, Ride
 from walk_building import Model, Part
 from walk_building.errors import ParameterError
+from walk_ros import conversions as c
+from walk_ros.raw import from_bytes, to_bytes
 
 OFFSET = np.array([500.0, -300.0, 20.0])
 FPS = 10.0
@@ -87,6 +95,31 @@ def test_two_other_loaders_open_the_glb(written: dict[str, Path], ride: Ride) ->
     assert blocks.bounds == pytest.approx((low[0], high[0], low[2], high[2], -high[1], -low[1]), abs=1e-4)
 
 
+def test_another_programs_player_moves_the_camera_of_the_glb(written: dict[str, Path]) -> None:
+    """VTK's importer plays the animation; it shares nothing with what wrote it."""
+    window, scene = vtkRenderWindow(), vtkRenderer()
+    window.AddRenderer(scene)
+    player = vtkGLTFImporter()
+    player.SetFileName(str(written["glb"]))
+    player.SetRenderWindow(window)
+    player.SetCamera(0)
+    player.Update()
+    assert (player.GetNumberOfCameras(), player.GetNumberOfAnimations()) == (1, 1)
+    player.EnableAnimation(0)
+    for t_s, eye, look in (
+        (0.0, (1, 2, 1.6), (1, 0, 0)),
+        (1.5, (3.5, 2, 1.6), (1, 0, 0)),
+        (3.5, (6, 2, 1.6), (1, 0, 0)),
+        (4.5, (6, 2, 1.6), (0, 1, 0)),
+    ):
+        player.UpdateAtTimeValue(t_s)
+        camera = scene.GetActiveCamera()
+        assert camera.GetPosition() == pytest.approx((eye[0], eye[2], -eye[1]), abs=1e-5)
+        assert camera.GetDirectionOfProjection() == pytest.approx((look[0], look[2], -look[1]), abs=1e-5)
+        assert camera.GetViewUp() == pytest.approx((0, 1, 0), abs=1e-5)
+    assert np.deg2rad(camera.GetViewAngle()) == pytest.approx(CONFIG.field_of_view_rad, abs=1e-5)
+
+
 def test_the_usd_camera_is_where_the_eye_is_and_looks_where_it_looks(written: dict[str, Path]) -> None:
     stage = Usd.Stage.Open(str(written["usd"]))
     assert UsdGeom.GetStageUpAxis(stage) == "Z" and UsdGeom.GetStageMetersPerUnit(stage) == 1.0
@@ -132,6 +165,29 @@ def test_the_yaml_is_the_message_with_its_speeds(written: dict[str, Path], ride:
     assert last["time_from_start"] == {"sec": 4, "nanosec": 500_000_000}
     assert last["transforms"][0]["translation"] == {"x": 6.0, "y": 2.0, "z": 1.6}
     assert message["points"][0]["velocities"][0]["linear"]["x"] == pytest.approx(5 / 3)
+
+
+def filled(message: Any, values: Any) -> Any:
+    """Returns a message with the values of a YAML document, as `ros2 topic pub` fills it; unknown names are errors."""
+    for name, value in values.items():
+        field = getattr(message, name)
+        if isinstance(value, dict):
+            filled(field, value)
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            (kind,) = re.findall(r"<(\w+)/(\w+)>", message.get_fields_and_field_types()[name])
+            made = getattr(importlib.import_module(f"{kind[0]}.msg"), kind[1])
+            setattr(message, name, [filled(made(), item) for item in value])
+        else:
+            setattr(message, name, value)
+    return message
+
+
+def test_the_yaml_becomes_the_message_again(written: dict[str, Path], ride: Ride) -> None:
+    msg = filled(MultiDOFJointTrajectory(), yaml.safe_load(written["ros"].read_text()))
+    again = c.trajectory_from_msg(from_bytes(to_bytes(msg), "trajectory_msgs/msg/MultiDOFJointTrajectory"))
+    np.testing.assert_allclose(again.t_s, ride.t_s, atol=1e-9)
+    np.testing.assert_allclose(again.positions, ride.positions, atol=1e-6)
+    np.testing.assert_allclose(again.quat_xyzw, ride.quat_xyzw, atol=1e-6)
 
 
 def test_the_video_has_the_length_of_the_walk_and_shows_what_lies_ahead(written: dict[str, Path]) -> None:
