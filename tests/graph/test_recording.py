@@ -19,6 +19,7 @@ from graph.processes import LIMIT_S, Graph, Observer
 from walk_bag import BagError, BagWriter, read_bag
 from walk_bag.record import main as record
 from walk_bag.record import pace
+from walk_bag.storage import unfinished_file
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes
 from walk_ros.topics import TOPICS, absolute_name, type_name
@@ -135,6 +136,67 @@ def test_a_recorder_killed_at_any_moment_leaves_a_bag_that_opens(other_domain, t
         graph.close()
     # Not only empty ones, which are those of the first second.
     assert np.count_nonzero(kept) >= 0.3 * KILLS and max(kept) > 100, kept
+
+
+@pytest.mark.parametrize("delay_s", [0.0, 0.02, 0.1, 0.3])
+def test_a_recorder_told_to_end_as_it_begins_leaves_a_whole_bag(other_domain, tmp_path, delay_s):
+    graph = Graph(other_domain, tmp_path, "")
+    try:
+        for attempt in range(3):
+            name, bag = f"record{attempt}", tmp_path / f"bag{attempt}"
+            graph.run(name, "walk_bag.record", "--out", str(bag))
+            until = time.monotonic() + LIMIT_S
+            while "recording" not in graph.log(name):
+                assert time.monotonic() < until, graph.log(name)
+            time.sleep(delay_s)
+            assert graph.interrupt(name) == 0, graph.log(name)
+            assert unfinished_file(bag) is None
+            assert list(read_bag(bag)) == []
+    finally:
+        graph.close()
+
+
+SMALL_DISK = """
+import resource, signal, sys
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (2_000_000, 2_000_000))
+from walk_bag.record import main
+sys.exit(main(["record", *sys.argv[1:]]))
+"""
+
+
+def test_a_full_disk_ends_the_recorder_with_a_sentence_and_nothing_else(other_domain, tmp_path):
+    """A limit on the size of files is as good as a full disk: the kernel refuses the write half-way."""
+    graph, talker = Graph(other_domain, tmp_path, ""), Observer(other_domain, "talker", topics=("path",))
+    spec = TOPICS["path"]
+    publisher = talker.node.create_publisher(spec.type, absolute_name("path"), spec.qos)
+    rng = np.random.default_rng(0)
+    try:
+        with (tmp_path / "record.log").open("wb") as log:
+            process = subprocess.Popen(
+                [sys.executable, "-c", SMALL_DISK, "--out", str(tmp_path / "bag"), "--previews", "0"],
+                env=graph.environment(), stdout=log, stderr=log,
+            )  # fmt: skip
+        graph.processes["record"] = process
+        stamp = 0
+
+        def ended():
+            nonlocal stamp
+            stamp += 1
+            publisher.publish(c.path_to_msg(np.arange(200.0), rng.normal(size=(200, 3)), AHEAD, stamp))
+            return process.poll() is not None
+
+        talker.wait(ended, "the recorder to end")
+        assert process.returncode == 1
+        assert "cannot be written any more: File too large" in graph.log("record")
+        # The graph lives on: what is said after that is heard.
+        heard = len(talker.heard["path"])
+        assert ended()
+        talker.after("path", heard, "another path")
+    finally:
+        talker.close()
+        graph.close()
+    assert _unbroken(tmp_path / "bag") > 50
 
 
 def _unbroken(bag):

@@ -25,7 +25,10 @@ class Spool:
     """Takes messages from any thread and writes them in one of its own."""
 
     def __init__(self, writer: BagWriter, on_error: Callable[[BagError], None], flush_s: float = FLUSH_S) -> None:
-        """Begins.
+        """Begins; the writing thread comes with the first message.
+
+        So a recorder that is told to end before it has heard anything has no thread that would keep its end from
+        closing the bag.
 
         Args:
             writer: The bag; closed by whoever made it.
@@ -36,17 +39,22 @@ class Spool:
         self._on_error = on_error
         self._flush_s = flush_s
         self._items: queue.SimpleQueue[_Item | None] = queue.SimpleQueue()
-        self._thread = threading.Thread(target=self._run, name="spool", daemon=True)
-        self._thread.start()
+        self._starting = threading.Lock()
+        self._thread: threading.Thread | None = None
 
     def put(self, topic: BagTopic, stamp_ns: int, data: bytes) -> None:
         """Hands a message over; returns at once."""
         self._items.put((topic, stamp_ns, data))
+        with self._starting:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name="spool", daemon=True)
+                self._thread.start()
 
     def close(self) -> None:
         """Writes what was handed over and ends the thread."""
         self._items.put(None)
-        self._thread.join()
+        if self._thread is not None:
+            self._thread.join()
 
     def _run(self) -> None:
         _go_behind_all_others()

@@ -47,6 +47,7 @@ class BagWriter:
         """
         self.path = Path(path)
         self._keep = keep or self.path.suffix != ".mcap"
+        self._recording = keep
         try:
             self._file = McapFile(self._begin())
         except OSError as error:
@@ -72,8 +73,8 @@ class BagWriter:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if error is None:
-            self.close()
+        if error is None or (self._recording and not isinstance(error, Exception)):
+            self.close()  # a recording ends with Ctrl-C, wherever that comes
             return
         self._file.cut()
         if not self._keep:
