@@ -59,6 +59,17 @@ def test_rviz_shows_topics_of_the_table() -> None:
         assert topic["Durability Policy"] == durability, topic["Value"]
 
 
+def test_rviz_shows_every_topic_that_it_has_a_display_for() -> None:
+    from walk_ros.topics import TOPICS, absolute_name, type_name
+
+    kinds = {"PointCloud2", "OccupancyGrid", "PoseArray", "MarkerArray", "Path", "PoseStamped"}
+    drawn = {absolute_name(name) for name, spec in TOPICS.items() if type_name(spec.type).rpartition("/")[2] in kinds}
+    layout = yaml.safe_load((SHARE / "rviz" / "walk.rviz").read_text(encoding="utf-8"))
+    shown = {d["Topic"]["Value"] for d in layout["Visualization Manager"]["Displays"] if "Topic" in d}
+    # The markers of the keypoints show the same places, with names and marks.
+    assert drawn - shown == {absolute_name("keypoints")}
+
+
 def test_rviz_edits_keypoints_under_the_name_of_the_editor() -> None:
     from walk_ros.editor import FEEDBACK, SERVICE, UPDATE
     from walk_ros.topics import absolute_name
