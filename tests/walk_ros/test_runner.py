@@ -1,10 +1,13 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
 import os
+import subprocess
+import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import pytest
+from graph.domains import own_domain
 
 from walk_ros.runner import use_profiles
 
@@ -27,3 +30,37 @@ def test_the_profiles_of_the_user_stay(monkeypatch, name):
     monkeypatch.setenv(name, "mine.xml")
     use_profiles()
     assert [os.environ[n] for n in NAMES if os.environ[n]] == ["mine.xml"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="asks the system for the priority of each thread")
+def test_every_thread_of_a_node_that_steps_back_does():
+    script = """
+import os, sys
+from rclpy.node import Node
+from walk_ros.runner import run_node
+
+def all_threads():
+    return {int(name) for name in os.listdir("/proc/self/task")}
+
+# Those that importing a library has started wait for work that a node does not give them.
+idle = all_threads()
+
+class Patient(Node):
+    niceness = 10
+
+    def __init__(self):
+        super().__init__("patient")
+        threads = {0, *all_threads()} - idle  # 0 is the one that asks
+        print(len(threads), sorted({os.getpriority(os.PRIO_PROCESS, thread) for thread in threads}))
+        raise KeyboardInterrupt
+
+sys.exit(run_node(Patient))
+"""
+    with own_domain() as domain:
+        told = subprocess.run(
+            [sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=True,
+            env={**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+        ).stdout.split(" ", 1)  # fmt: skip
+    mine = os.getpriority(os.PRIO_PROCESS, 0)
+    assert int(told[0]) > 1, "the middleware has threads"
+    assert told[1].strip() == f"[{max(mine, 10)}]"

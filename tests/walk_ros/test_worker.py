@@ -1,7 +1,5 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-import os
-import sys
 import threading
 
 import pytest
@@ -134,21 +132,3 @@ def test_input_that_is_not_urgent_is_served_all_the_same(bench):
     made.worker.wake(at_once=False)
     made.wait_entered()
     made.go_on.release()
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="threads have no priorities of their own elsewhere")
-def test_the_thread_steps_back_alone():
-    seen, done = [], threading.Event()
-
-    def step():
-        seen.append(os.getpriority(os.PRIO_PROCESS, 0))
-        done.set()
-
-    before = os.getpriority(os.PRIO_PROCESS, 0)
-    worker = Worker("test", step, seen.append, niceness=19)
-    worker.start()
-    worker.wake()
-    assert done.wait(LIMIT_S)
-    assert worker.stop(LIMIT_S)
-    assert seen[0] == 19
-    assert os.getpriority(os.PRIO_PROCESS, 0) == before

@@ -87,6 +87,22 @@ def test_the_quick_check_is_stricter_than_the_library_along_a_wall(hall: Buildin
     assert not (found & ~BodySweep(hall.geometry, hall.walker).segments_free(points)).any()
 
 
+def test_what_a_check_remembers_never_changes_its_answer(rooms: Building) -> None:
+    rng = np.random.default_rng(4)
+    check, answers = PathCheck(rooms.geometry, rooms.walker), []
+    along = np.linspace(0.0, 1.0, 80)[:, None]
+    for drag in range(60):
+        # A hand draws the middle of a way about, through walls and back; now and then it begins somewhere else.
+        if drag % 20 == 0:
+            ends = np.column_stack([rng.uniform(0.4, 7.8, 2), rng.uniform(0.4, 3.6, 2), (1.6, 1.6)])
+            pull = np.zeros(3)
+        pull = pull + np.append(rng.normal(scale=0.03, size=2), 0.0)
+        points = (1 - along) * ends[0] + along * ends[1] + np.sin(np.pi * along) * pull
+        answers.append(check.segments_free(points, remember=True))
+        np.testing.assert_array_equal(answers[-1], PathCheck(rooms.geometry, rooms.walker).segments_free(points))
+    assert 0.1 < np.mean(answers) < 0.99, "the test would say nothing"
+
+
 def test_path_is_free_smooth_and_near_its_keypoints(rooms: Building) -> None:
     tour = eyes((1, 1), (1, 2), (7, 2), (7, 3.2))
     path = optimise_path(rooms, tour, tour[[0, 1, 3]])

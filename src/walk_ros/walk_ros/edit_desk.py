@@ -26,7 +26,7 @@ from walk_ros.keypoint_view import KeypointView
 from walk_ros.near_watch import NearWatch
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS
-from walk_ros.side_services import SideServices
+from walk_ros.side_node import SideNode
 
 _ANSWER_S = 5.0
 """How long a service waits for what it asked for; then it says that the answer comes later."""
@@ -59,7 +59,7 @@ class EditDesk:
         node.offer("edit_results")
         node.take_in("keypoint_edits", self._store)
         node.take_in(FEEDBACK, lambda msg: self._store(msg, from_editor=True))
-        self._services = SideServices(node)
+        self._services = SideNode(node, "services")
         self._services.offer(Trigger, "undo", lambda _request, response: self._change(Change.UNDO, response))
         self._services.offer(Trigger, "redo", lambda _request, response: self._change(Change.REDO, response))
         self._services.start()

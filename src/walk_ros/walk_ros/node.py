@@ -27,6 +27,7 @@ from walk_ros.errors import MessageError
 from walk_ros.log import forward_logging
 from walk_ros.parameters import ConfigParameters
 from walk_ros.qos import latched
+from walk_ros.side_node import SideNode
 from walk_ros.topics import NAMESPACE, TOPICS
 from walk_ros.worker import Superseded, Worker
 
@@ -44,7 +45,7 @@ class WalkNode(Node):
     cannot be done. Both run in the worker's thread.
 
     Attributes:
-        niceness: By how much the worker steps back behind others: a planner of the next revision behind those who
+        niceness: By how much its process steps back behind others: a planner of the next revision behind those who
             show the present one.
     """
 
@@ -60,11 +61,12 @@ class WalkNode(Node):
         super().__init__(name, namespace=NAMESPACE)
         forward_logging(self.get_logger())
         self.diagnostics = Diagnostics(self.get_fully_qualified_name().strip("/"))
-        self.worker = Worker(f"{name} worker", self._step, self.report, self.niceness)
+        self.worker = Worker(f"{name} worker", self._step, self.report)
         self.building: Building | None = None
         self._loaded_for: tuple[Any, ...] = ()
         self._last_revision_ns = 0
         self._revision_lock = threading.Lock()
+        self._aside: SideNode | None = None
         self._publishing: dict[str, Any] = {}
         self.declare_text("building", "", "path of the building file; empty for the sample building")
         groups = {"load": LoadOptions, "walker": Walker, **configs}
@@ -80,8 +82,10 @@ class WalkNode(Node):
         self.declare_parameter(name, default, ParameterDescriptor(description=description))
 
     def start(self) -> None:
-        """Starts the worker; the last thing a subclass's constructor does."""
+        """Starts the threads; the last thing a subclass's constructor does."""
         self.worker.start()
+        if self._aside is not None:
+            self._aside.start()
         self.worker.wake()
 
     def work(self, building: Building) -> None:
@@ -100,7 +104,13 @@ class WalkNode(Node):
         raise NotImplementedError
 
     def take_in(
-        self, topic: str, store: Callable[[Any], None], then: Callable[[], None] | None = None, *, raw: bool = False
+        self,
+        topic: str,
+        store: Callable[[Any], None],
+        then: Callable[[], None] | None = None,
+        *,
+        raw: bool = False,
+        aside: bool = False,
     ) -> None:
         """Subscribes to a topic of the table; a message that is not sound is reported and otherwise ignored.
 
@@ -109,6 +119,7 @@ class WalkNode(Node):
             store: Called with each message.
             then: Called once all messages that wait have been stored: the latest of them counts.
             raw: Hand the messages over as bytes.
+            aside: Hear it in a thread of its own, which has nothing else to look through: for what is answered at once.
         """
 
         def callback(msg: Any) -> None:
@@ -118,7 +129,12 @@ class WalkNode(Node):
                     self._stored(topic, store, more)
                 then()
 
-        subscription = self.create_subscription(TOPICS[topic].type, topic, callback, TOPICS[topic].qos, raw=raw)
+        kind, qos = TOPICS[topic].type, TOPICS[topic].qos
+        if aside:
+            self._aside = self._aside or SideNode(self, "aside")
+            subscription = self._aside.hear(kind, topic, callback, qos, raw=raw)
+        else:
+            subscription = self.create_subscription(kind, topic, callback, qos, raw=raw)
 
     def _stored(self, topic: str, store: Callable[[Any], None], msg: Any) -> None:
         try:
@@ -176,6 +192,8 @@ class WalkNode(Node):
     def destroy_node(self) -> None:
         """Ends the worker, then the node."""
         self.worker.stop(STOP_S)
+        if self._aside is not None:
+            self._aside.stop()
         super().destroy_node()
 
     def _changed(self, groups: frozenset[str]) -> None:

@@ -30,12 +30,13 @@ def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> 
     """Runs the node until SIGINT, SIGTERM or a shut-down; returns the exit code.
 
     Args:
-        factory: Makes the node, once the middleware is up.
+        factory: Makes the node, once the middleware is up; its `niceness`, if it has one, is the process's.
         args: Command line; None takes that of the process.
     """
     node: Node | None = None
     code = EXIT_OK
     try:
+        _step_back(getattr(factory, "niceness", 0))
         _start_middleware(args)
         node = _make(factory)
         _spin(node)
@@ -67,6 +68,12 @@ def use_profiles() -> None:
     """Has Fast DDS read the profiles of this package, unless the user has named others."""
     if not any(os.environ.get(name) for name in _PROFILES):
         os.environ[_PROFILES[0]] = str(Path(__file__).with_name("fastdds.xml"))
+
+
+def _step_back(niceness: int) -> None:
+    """Has the process step back behind others, before it starts its threads: each takes it from the one before."""
+    if niceness and hasattr(os, "nice"):
+        os.nice(max(niceness - os.nice(0), 0))
 
 
 def _start_middleware(args: Sequence[str] | None) -> None:

@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 import logging
-import os
-import sys
 import threading
 from collections.abc import Callable
 
@@ -26,20 +24,16 @@ class Worker:
     The step reads the newest input itself, so the latest wins and what it replaced is dropped.
     """
 
-    def __init__(
-        self, name: str, step: Callable[[], None], on_error: Callable[[Exception], None], niceness: int = 0
-    ) -> None:
+    def __init__(self, name: str, step: Callable[[], None], on_error: Callable[[Exception], None]) -> None:
         """Makes the worker; `start` starts it.
 
         Args:
             name: Of the thread.
             step: Does what the newest input asks for.
             on_error: Called in the thread with what a step raised; the worker lives on.
-            niceness: By how much the thread, and those it starts, step back behind others.
         """
         self._step = step
         self._on_error = on_error
-        self._niceness = niceness
         self._wake = threading.Event()
         self._at_once = threading.Event()
         self._superseded = threading.Event()
@@ -93,10 +87,6 @@ class Worker:
         _log.debug("%s %.0f %%", stage, 100 * fraction)
 
     def _run(self) -> None:
-        if self._niceness and sys.platform == "linux":  # elsewhere a thread has no priority of its own
-            thread = threading.get_native_id()
-            before = os.getpriority(os.PRIO_PROCESS, thread)
-            os.setpriority(os.PRIO_PROCESS, thread, max(before, self._niceness))
         while True:
             self._wake.wait()
             self._at_once.wait(REST_S)

@@ -23,36 +23,70 @@ _AHEAD_M = 0.4  # how far ahead is looked at least: fewer questions, each a litt
 class PathCheck:
     """Says which segments of a path the body passes, by the exact distance between the body's axis and the triangles.
 
-    In compiled code and a little stricter than `walk_building.BodySweep`, which the tests hold it to.
+    In compiled code and a little stricter than `walk_building.BodySweep`, which the tests hold it to. What one sweep
+    has found out about the room around a path spares the next one, of a path near by, most of its questions; the
+    answers are the same. Not safe to share between threads.
     """
 
     def __init__(self, geometry: Geometry, walker: Walker) -> None:
         self._geometry = geometry
         self._walker = walker
+        self._balls = np.empty((0, 4))
 
-    def segments_free(self, eye_path: NDArray[np.float64]) -> NDArray[np.bool_]:
-        """Returns for each segment of the eye path (n, 3) whether the body passes it, (n − 1,)."""
+    def segments_free(self, eye_path: NDArray[np.float64], *, remember: bool = False) -> NDArray[np.bool_]:
+        """Returns for each segment of the eye path (n, 3) whether the body passes it, (n − 1,).
+
+        Args:
+            eye_path: What to sweep the body along [m].
+            remember: Another path near by will be asked for next.
+        """
         free = np.ones(max(len(eye_path) - 1, 0), np.bool_)
         if len(free):
             walker = self._walker
             low, high = walker.axis_low_m - walker.eye_height_m, walker.axis_high_m - walker.eye_height_m
             contact = walker.radius_m + CONTACT_M
-            _sweep(self._geometry.bvh, np.ascontiguousarray(eye_path), low, high, contact, free)
+            eyes = np.ascontiguousarray(eye_path)
+            balls = _sweep(self._geometry.bvh, eyes, (low, high), contact, free, self._balls)
+            self._balls = balls if remember else self._balls
         return free
 
 
 @numba.njit(cache=True, nogil=True)
-def _sweep(bvh, eyes, low, high, contact, free):
+def _sweep(bvh, eyes, ends, contact, free, balls):
     """Writes for each segment whether the body's axis stays farther than `contact` from all triangles.
 
     Conservative advancement: an axis that is c farther than that from everything may move on by c, over as many
     segments as that reaches.
+
+    Args:
+        bvh: The triangles.
+        eyes: (n, 3) the path.
+        ends: Heights of the axis' ends relative to the eye.
+        contact: What counts as touching.
+        free: (n - 1,) out.
+        balls: (k, 4) eye positions and radii within which an eye is known to be free, in the order of a path near by.
+
+    Returns:
+        The balls (m, 4) that were found or of use this time, in the order of this path.
     """
-    anchor, reach = eyes[0], -1.0
+    low, high = ends
+    found, used = np.empty((len(free), 4)), 0
+    nearest = _nearest_ball(balls, eyes[0])
     at_x, at_y, at_z, known = 0.0, 0.0, 0.0, np.inf  # where was asked last, and how far everything is from there
     for i in range(len(free)):
         free[i] = True
-        if max(_apart(anchor, eyes[i]), _apart(anchor, eyes[i + 1])) <= reach:
+        if used > 0 and _covers(found[used - 1], eyes[i], eyes[i + 1]):
+            continue
+        while nearest + 1 < len(balls) and _apart(balls[nearest + 1], eyes[i]) < _apart(balls[nearest], eyes[i]):
+            nearest += 1
+        covered = False
+        for k in range(max(nearest - 1, 0), min(nearest + 2, len(balls))):
+            if _covers(balls[k], eyes[i], eyes[i + 1]):
+                found[used] = balls[k]
+                used += 1
+                covered = True
+                break
+        if covered:
             continue
         move, length = eyes[i + 1] - eyes[i], _apart(eyes[i], eyes[i + 1])
         limit = (contact + _MARGIN_M) ** 2, (contact + max(length, _AHEAD_M) + _MARGIN_M) ** 2
@@ -70,10 +104,29 @@ def _sweep(bvh, eyes, low, high, contact, free):
                 break
             ahead = np.sqrt(square) - contact
             if at == 0.0:
-                anchor, reach = eyes[i], ahead
+                found[used, :3] = eyes[i]
+                found[used, 3] = ahead - _MARGIN_M
+                used += 1
             at += ahead
             if at >= length:
                 break
+    return found[:used].copy()
+
+
+@numba.njit(cache=True, nogil=True)
+def _covers(ball, a, b):
+    """Returns whether a segment, like both its ends, lies within a ball (x, y, z, radius)."""
+    return max(_apart(ball, a), _apart(ball, b)) <= ball[3]
+
+
+@numba.njit(cache=True, nogil=True)
+def _nearest_ball(balls, eye):
+    nearest, apart = 0, np.inf
+    for k in range(len(balls)):
+        here = _apart(balls[k], eye)
+        if here < apart:
+            nearest, apart = k, here
+    return nearest
 
 
 @numba.njit(cache=True, nogil=True)
@@ -90,6 +143,8 @@ def colliding_runs(free: NDArray[np.bool_], arc_m: NDArray[np.float64], gap_m: f
         gap_m: Free pieces shorter than this do not part two intervals.
     """
     runs: list[tuple[float, float]] = []
+    if free.all():
+        return runs
     for i in np.flatnonzero(~free):
         start, end = float(arc_m[i]), float(arc_m[i + 1])
         if runs and start - runs[-1][1] < gap_m:

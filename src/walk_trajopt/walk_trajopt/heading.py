@@ -43,15 +43,15 @@ def heading_of(
         lookahead_m: How far ahead of the walker the look direction is taken.
         smoothing_m: Standard deviation of the Gaussian that smooths the look direction.
     """
-    count = int(np.ceil(arc_m[-1] / GRID_M)) + 1
-    grid = np.linspace(0.0, arc_m[-1], max(count, _LEAST_CELLS))
-    spacing = float(grid[1])
-    yaw, look, bend = _on_grid(points, arc_m, grid, spacing, lookahead_m, smoothing_m)
-    return Heading(spacing_m=spacing, arc_m=grid, yaw=yaw, look=look, bend=bend)
+    grid, yaw, look, bend = _on_grid(points, arc_m, lookahead_m, smoothing_m)
+    return Heading(spacing_m=float(grid[1]), arc_m=grid, yaw=yaw, look=look, bend=bend)
 
 
 @numba.njit(cache=True, nogil=True)
-def _on_grid(points, arc_m, grid, spacing, lookahead, smoothing):
+def _on_grid(points, arc_m, lookahead, smoothing):
+    """Returns the grid (g,) and on it yaw, look and bend (g,)."""
+    grid = np.linspace(0.0, arc_m[-1], max(int(np.ceil(arc_m[-1] / GRID_M)) + 1, _LEAST_CELLS))
+    spacing = grid[1]
     knots, direction, slope = _directions(points, arc_m)
     along, rise = _spread(grid, knots, direction, slope)
     turned, tilted = gaussian(along, _BODY_M / spacing), gaussian(rise, _BODY_M / spacing)
@@ -62,7 +62,7 @@ def _on_grid(points, arc_m, grid, spacing, lookahead, smoothing):
         look[i] = on_even_grid(grid[i] + lookahead, spacing, smooth)
         across = turning[i] * np.cos(tilted[i]) if abs(tilted[i]) > _LEVEL else turning[i]
         bend[i] = np.sqrt(across * across + tilting[i] * tilting[i])
-    return turned, look, bend
+    return grid, turned, look, bend
 
 
 @numba.njit(cache=True, nogil=True)

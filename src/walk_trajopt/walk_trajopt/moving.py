@@ -16,7 +16,7 @@ from walk_trajopt.pieces import Pieces
 from walk_trajopt.solvers import Solution
 from walk_trajopt.state import Legs, State, bent
 
-_HASTY_ITERATIONS, _HASTY_TOLERANCE = 10, 1e-3  # of a drag: the next one goes on from there, a release takes its time
+_HASTY_ITERATIONS, _HASTY_TOLERANCE = 10, 1e-2  # of a drag: the next one goes on from there, a release takes its time
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

@@ -49,8 +49,8 @@ class TrajoptNode(WalkNode):
         for topic in ("keypoints", "keypoint_markers", "tour"):
             self.take_in(topic, functools.partial(self._store, topic))
         for topic in ("keypoint_edits", "keypoint_editor/feedback"):
-            self.take_in(topic, self._store_edit, self._answer_edits, raw=True)
-        self.take_in("edit_results", self._store_result, raw=True)
+            self.take_in(topic, self._store_edit, self._answer_edits, raw=True, aside=True)
+        self.take_in("edit_results", self._store_result, raw=True, aside=True)
         self.start()
 
     def work(self, building: Building) -> None:
@@ -152,7 +152,7 @@ class TrajoptNode(WalkNode):
             self.diagnostics.state("ready", f"{sentence}; touching: {touching}", level="warn", code="colliding")
         else:
             self.diagnostics.state("ready", sentence)
-        status = f"{path.solver}: {path.iterations} iterations, cost {path.total_cost:.4g}"
+        status = f"{path.solver}: {path.iterations} iterations" + (f", cost {path.total_cost:.4g}" if path.cost else "")
         self.diagnostics.note(solver_status=status, revision_ns=stamp_ns, tour_revision_ns=plan.stamp_ns)
 
     def publish_diagnostics(self) -> None:

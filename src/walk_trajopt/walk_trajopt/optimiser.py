@@ -148,9 +148,13 @@ class Optimiser:
         if moved.hopeless:
             times = len(moved.hopeless)
             return self._refused(f"the body would touch the building {times} times beside keypoint {keypoint}")
-        window = moved.state.window(keypoint)
-        self.state = dataclasses.replace(moved.state, terms=self.pieces.spliced_terms(self.state, moved.state, *window))
         self._solution = moved.solution
+        if hasty:
+            # What each objective costs is not asked for in the middle of a drag.
+            self.state = dataclasses.replace(moved.state, terms={})
+            return EditOutcome(path=path_of(self.state, self._solution, self.config.solver), accepted=True, reason="")
+        terms = self.pieces.spliced_terms(self.state, moved.state, *moved.state.window(keypoint))
+        self.state = dataclasses.replace(moved.state, terms=terms)
         return EditOutcome(path=self.path(), accepted=True, reason="")
 
     def rehearse(self) -> None:
@@ -193,6 +197,8 @@ class Optimiser:
 
     def path(self) -> OptimisedPath:
         """Returns the path of the present state, its stretches named by its own arc length."""
+        if not self.state.terms:
+            self.state = dataclasses.replace(self.state, terms=self.pieces.terms(self.state))
         return path_of(self.state, self._solution, self.config.solver)
 
     def _fresh(self, tour: Polyline, stops: NDArray[np.float64], locked: ArrayLike | None, n: int) -> State:

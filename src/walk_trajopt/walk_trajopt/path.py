@@ -32,7 +32,7 @@ class OptimisedPath:
     Attributes:
         points: (n, 3) eye positions, dense enough that the polyline stands for a smooth curve [m].
         keypoint_index: (M,) the point at which each keypoint is passed, rising.
-        cost: Weighted value of each objective at the solution, by name; empty for a spline.
+        cost: Weighted value of each objective at the solution, by name; empty for a spline and in the middle of a drag.
         iterations: Of the solver.
         evaluations: Of the cost by the solver.
         solver: Its name, or what else made the path.

@@ -74,11 +74,13 @@ class Pieces:
         """Returns the terms of a state that differs from another one between two points: beside, they stay.
 
         Args:
-            old: With its terms.
+            old: With its terms; where it has none, all are computed.
             new: Without.
             first: In `new`, the last point before what differs.
             last: In `new`, the first point behind it.
         """
+        if not old.terms:
+            return self.terms(new)
         low, high = around(new, first, last)
         own = self._known_terms(new, (low, high)) or self._problem(new, low, high).terms(new.x[low:high])
         added = len(new.x) - len(old.x)

@@ -41,6 +41,8 @@ class Problem:
         setting: What the objectives refer to.
         fixed: (n,) bool.
         bands: (3, n) lower bands of half the constant Hessian of the quadratic objectives, per coordinate.
+        hessian: (7, 3 n) lower bands of that Hessian, fixed points cut loose with a 1.
+        stiffness: The median of its diagonal.
         first: (G + 1,) where each pointwise objective's pieces begin.
         scale: (n, G) each pointwise objective's weight times the spacing, at each point.
     """
@@ -80,18 +82,38 @@ class Problem:
             for k, (_, objective) in enumerate(self._pointwise):
                 if isinstance(objective, Clearance):
                     self.scale[:, k] *= firmness
-        self.bands = np.zeros((3, len(setting.start)))
-        self._linear = np.zeros_like(setting.start)
+        self._quadratic = [(w, o) for w, o in self._objectives.values() if isinstance(o, QuadraticObjective)]
+        self._sum_up(before)
+
+    def _sum_up(self, before: Problem | None) -> None:
+        """Sums the quadratic objectives; what depends on their matrices alone is taken from a problem that has them."""
+        self.bands: NDArray[np.float64]
+        self.hessian: NDArray[np.float64]
+        self.stiffness: float
+        self._linear = np.zeros_like(self.setting.start)
         self._constant = 0.0
-        for weight, objective in self._objectives.values():
-            if not isinstance(objective, QuadraticObjective):
-                continue
-            self.bands += weight * objective.bands
-            if objective.target is None:
-                continue
-            product = banded_product(objective.bands, objective.target)
-            self._linear += weight * product
-            self._constant += weight * float(np.vdot(objective.target, product))
+        for weight, objective in self._quadratic:
+            if objective.target is not None:
+                product = banded_product(objective.bands, objective.target)
+                self._linear += weight * product
+                self._constant += weight * float(np.vdot(objective.target, product))
+        if before is not None and before._has_matrices_of(self):
+            self.bands = before.bands
+            if np.array_equal(before.fixed, self.fixed):
+                self.hessian, self.stiffness = before.hessian, before.stiffness
+                return
+        else:
+            self.bands = np.zeros((3, len(self.setting.start)))
+            for weight, objective in self._quadratic:
+                self.bands += weight * objective.bands
+        self.hessian = _cut_loose(self.bands, self.fixed)
+        self.stiffness = max(float(np.median(self.hessian[0])), 1e-9)
+
+    def _has_matrices_of(self, other: Problem) -> bool:
+        """Whether the sum of the matrices is the same, which is told by their identity."""
+        pairs = list(zip(self._quadratic, other._quadratic, strict=False))
+        same = all(w == v and a.bands is b.bands for (w, a), (v, b) in pairs)
+        return same and len(self._quadratic) == len(other._quadratic) == len(pairs)
 
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the cost at points `x` (n, 3) and its gradient (n, 3), which is zero at fixed points."""
@@ -131,12 +153,33 @@ class Problem:
         return out
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
-        value, gradient = _quadratic(self.bands, self._linear, x)
+        value, gradient = _quadratic_form(self.bands, self._linear, x)
         return value + self._constant, gradient
 
 
 @numba.njit(cache=True, nogil=True)
-def _quadratic(bands, linear, x):
+def _cut_loose(own, fixed):
+    """Returns the lower bands (7, 3 n) of the quadratic objectives' Hessian, fixed points cut loose with a 1.
+
+    Args:
+        own: (3, n) lower bands of half of it, per coordinate.
+        fixed: (n,).
+    """
+    n = len(fixed)
+    bands = np.zeros((7, 3 * n))
+    for k in range(3):
+        for i in range(n - k):
+            loose = fixed[i] or fixed[i + k]
+            for c in range(3):
+                bands[3 * k, 3 * i + c] = 0.0 if loose else 2.0 * own[k, i]
+    for i in range(n):
+        if fixed[i]:
+            bands[0, 3 * i : 3 * i + 3] = 1.0
+    return bands
+
+
+@numba.njit(cache=True, nogil=True)
+def _quadratic_form(bands, linear, x):
     """Returns xᵀ A x − 2 bᵀ x and its gradient 2 (A x − b), for A with lower `bands` and b `linear` (n, 3)."""
     gradient = banded_product(bands, x)
     value = 0.0

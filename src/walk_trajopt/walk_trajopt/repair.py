@@ -33,16 +33,17 @@ class Way:
 
     def between(self, low_m: float, high_m: float) -> Way:
         """Returns the piece whose arc lengths on the tour are from `low_m` to `high_m`."""
-        inside = (self.tour_m >= low_m - _SAME_M) & (self.tour_m <= high_m + _SAME_M)
-        return Way(points=self.points[inside], tour_m=self.tour_m[inside])
+        begin = self.tour_m.searchsorted(low_m - _SAME_M)
+        end = self.tour_m.searchsorted(high_m + _SAME_M, side="right")
+        return Way(points=self.points[begin:end], tour_m=self.tour_m[begin:end])
 
     def replaced(self, piece: Way) -> Way:
         """Returns the way with what lies between the ends of `piece` replaced by it."""
-        before = self.tour_m < piece.tour_m[0] - _SAME_M
-        after = self.tour_m > piece.tour_m[-1] + _SAME_M
+        before = self.tour_m.searchsorted(piece.tour_m[0] - _SAME_M)
+        after = self.tour_m.searchsorted(piece.tour_m[-1] + _SAME_M, side="right")
         return Way(
-            points=np.concatenate([self.points[before], piece.points, self.points[after]]),
-            tour_m=np.concatenate([self.tour_m[before], piece.tour_m, self.tour_m[after]]),
+            points=np.concatenate([self.points[:before], piece.points, self.points[after:]]),
+            tour_m=np.concatenate([self.tour_m[:before], piece.tour_m, self.tour_m[after:]]),
         )
 
 
@@ -73,11 +74,10 @@ _ATTEMPTS = (
 
 def colliding(way: Way, check: PathCheck, window_m: tuple[float, float]) -> list[tuple[float, float]]:
     """Returns the stretches of the way within a window, as arc lengths on the tour, that the body does not pass."""
-    inside = np.flatnonzero((way.tour_m[:-1] < window_m[1]) & (way.tour_m[1:] > window_m[0]))
-    free = np.ones(len(way.tour_m) - 1, bool)
-    if len(inside):
-        free[inside] = check.segments_free(way.points[inside[0] : inside[-1] + 2])
-    return colliding_runs(free, way.tour_m, _GAP_M)
+    begin = max(int(way.tour_m.searchsorted(window_m[0], side="right")) - 1, 0)
+    end = min(int(way.tour_m.searchsorted(window_m[1])), len(way.tour_m) - 1)
+    free = check.segments_free(way.points[begin : end + 1], remember=True)
+    return colliding_runs(free, way.tour_m[begin : end + 1], _GAP_M)
 
 
 def planned_way_is_free(

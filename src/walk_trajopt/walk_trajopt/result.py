@@ -5,11 +5,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from walk_trajopt.path import OptimisedPath, Stretch, read_only
 from walk_trajopt.polyline import arc_lengths
-from walk_trajopt.repair import Mended
 from walk_trajopt.solvers import Solution
 from walk_trajopt.state import State
 
@@ -23,7 +21,7 @@ def path_of(state: State, solution: Solution, solver: str) -> OptimisedPath:
         solver: Its name.
     """
     points, tour_m = state.way.points, state.way.tour_m
-    arc = arc_lengths(points)
+    stretches = _stretches(state)
     after = np.minimum(tour_m.searchsorted(state.keypoint_m), len(tour_m) - 1)
     before = np.maximum(after - 1, 0)
     nearer = state.keypoint_m - tour_m[before] < tour_m[after] - state.keypoint_m
@@ -34,17 +32,20 @@ def path_of(state: State, solution: Solution, solver: str) -> OptimisedPath:
         iterations=solution.iterations,
         evaluations=solution.evaluations,
         solver=solver,
-        repaired=tuple(_stretch(m, state, arc) for m in state.mended if m.free),
-        colliding=tuple(_stretch(m, state, arc) for m in state.mended if not m.free),
+        repaired=tuple(stretch for stretch, free in stretches if free),
+        colliding=tuple(stretch for stretch, free in stretches if not free),
     )
 
 
-def _stretch(mended: Mended, state: State, arc_m: NDArray[np.float64]) -> Stretch:
-    start, end = np.interp([mended.start_m, mended.end_m], state.way.tour_m, arc_m)
-    return Stretch(
-        start_m=float(start),
-        end_m=float(end),
-        after_keypoint=int(np.searchsorted(state.keypoint_m, mended.start_m, side="right")) - 1,
-        before_keypoint=int(np.searchsorted(state.keypoint_m, mended.end_m, side="left")),
-        how=mended.how,
-    )
+def _stretches(state: State) -> list[tuple[Stretch, bool]]:
+    """Returns what was mended, and whether it passes now."""
+    if not state.mended:
+        return []
+    ends = np.array([(m.start_m, m.end_m) for m in state.mended])
+    arc_m = np.interp(ends, state.way.tour_m, arc_lengths(state.way.points)).tolist()
+    after = (state.keypoint_m.searchsorted(ends[:, 0], side="right") - 1).tolist()
+    before = state.keypoint_m.searchsorted(ends[:, 1]).tolist()
+    return [
+        (Stretch(start_m=a, end_m=b, after_keypoint=low, before_keypoint=high, how=m.how), m.free)
+        for m, (a, b), low, high in zip(state.mended, arc_m, after, before, strict=True)
+    ]

@@ -37,7 +37,7 @@ class State:
         firmness: (n,) how many times as much the clearance counts at each: 1, or FIRM where it had to be more.
         way: The checked curve through them.
         mended: What the repair did.
-        terms: The weighted terms (n,) of each objective at `x`, by name.
+        terms: The weighted terms (n,) of each objective at `x`, by name; empty where nobody has asked for them yet.
     """
 
     tour: Polyline

@@ -152,7 +152,7 @@ def difference_terms(x: Points, order: int, scale: float) -> Points:
 
 @functools.lru_cache(maxsize=256)
 def difference_bands(n: int, stencil: tuple[float, ...], scale: float) -> NDArray[np.float64]:
-    """Returns the lower bands (3, n), read-only, of scale SᵀS; S applies the stencil (2 or 3 numbers) to neighbours."""
+    """Returns the lower bands (3, n), read-only, of scale SᵀS; S applies the stencil (1 to 3 numbers) to neighbours."""
     bands = np.zeros((3, n))
     rows = max(n - len(stencil) + 1, 0)
     for i, a in enumerate(stencil):

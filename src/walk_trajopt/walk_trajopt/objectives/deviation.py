@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from walk_trajopt.objectives.base import Points, QuadraticObjective, Setting
+from walk_trajopt.objectives.base import Points, QuadraticObjective, Setting, difference_bands
 
 
 class Deviation(QuadraticObjective):
@@ -15,8 +15,7 @@ class Deviation(QuadraticObjective):
     def __init__(self, setting: Setting) -> None:
         super().__init__(setting)
         self.target = setting.start
-        self.bands = np.zeros((3, len(setting.start)))
-        self.bands[0] = setting.spacing_m
+        self.bands = difference_bands(len(setting.start), (1.0,), setting.spacing_m)
 
     def terms(self, x: Points) -> Points:
         """Returns the terms (n,) of the sum."""

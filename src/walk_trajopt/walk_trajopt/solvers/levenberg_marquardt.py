@@ -9,7 +9,6 @@ what it is (`newton.py`); the geometry is asked once for each step, and the step
 
 from __future__ import annotations
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,7 +17,7 @@ from walk_trajopt.problem import Problem
 from walk_trajopt.solvers.base import Solution
 from walk_trajopt.solvers.newton import Model, newton_step
 
-# In units of the median of the constant matrix's diagonal. The first holds steps to decimetres: as far as a model of
+# In units of the problem's stiffness. The first holds steps to decimetres: as far as a model of
 # the nearest walls is worth anything.
 _FIRST_DAMPING = 0.01
 _LEAST_DAMPING = 1e-8
@@ -28,22 +27,20 @@ _SMALL_ENDS = 8  # iterations in a row that lower the cost by less than the tole
 
 def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: TrajoptConfig) -> Solution:
     """Minimises by damped steps to the minimum of the model."""
-    base = _constant_bands(problem.bands, problem.fixed)
-    scale = max(float(np.median(base[0])), 1e-9)
     x, damping = x0, _FIRST_DAMPING
     here = problem.linearise(x)
     iterations = small = 0
     while iterations < config.max_iterations and damping <= _MOST_DAMPING:
         iterations += 1
         model = Model(
-            base=base,
+            base=problem.hessian,
             gradient=here.gradient,
             values=here.values,
             slopes=here.slopes,
             bends=here.bends,
             first=problem.first,
             scale=problem.scale,
-            damping=damping * scale,
+            damping=damping * problem.stiffness,
             fixed=problem.fixed,
         )
         step, promised = newton_step(model)
@@ -69,24 +66,3 @@ def _response(gain: float, promised: float) -> float:
         return 10.0
     kept = gain / max(promised, 1e-12)
     return 0.1 if kept > 0.75 else 1.0 if kept > 0.25 else 4.0
-
-
-@numba.njit(cache=True, nogil=True)
-def _constant_bands(own, fixed):
-    """Returns the lower bands (7, 3 n) of the quadratic objectives' Hessian, fixed points cut loose with a 1.
-
-    Args:
-        own: (3, n) lower bands of half of it, per coordinate.
-        fixed: (n,).
-    """
-    n = len(fixed)
-    bands = np.zeros((7, 3 * n))
-    for k in range(3):
-        for i in range(n - k):
-            loose = fixed[i] or fixed[i + k]
-            for c in range(3):
-                bands[3 * k, 3 * i + c] = 0.0 if loose else 2.0 * own[k, i]
-    for i in range(n):
-        if fixed[i]:
-            bands[0, 3 * i : 3 * i + 3] = 1.0
-    return bands

@@ -10,7 +10,7 @@ from graph.domains import own_domain
 from rclpy.executors import SingleThreadedExecutor
 from std_srvs.srv import Trigger
 
-from walk_ros.side_services import SideServices
+from walk_ros.side_node import SideNode
 
 LIMIT_S = 10.0
 
@@ -33,7 +33,7 @@ def test_the_node_works_while_a_service_waits_for_it(context):
         response.success = worked.wait(LIMIT_S)
         return response
 
-    services = SideServices(node)
+    services = SideNode(node, "services")
     services.offer(Trigger, "slow", wait_for_node)
     services.start()
     caller = rclpy.create_node("caller", context=context)
