@@ -52,10 +52,10 @@ def test_path_is_painted_by_what_the_planner_measured(headset, picture):
     picture(pathColour="collisions")
     green = headset.js("""
       const colours = walk.stage.tube.geometry.getAttribute("color").array;
-      const used = walk.stage.tube.rings * 6 * 3;
+      const used = walk.stage.tube.rings * 2 * 4;
       let green = 0;
-      for (let i = 0; i < used; i += 3) if (colours[i + 1] > 2 * colours[i]) green += 1;
-      return green / (used / 3);
+      for (let i = 0; i < used; i += 4) if (colours[i + 1] > 2 * colours[i]) green += 1;
+      return green / (used / 4);
     """)
     # A tour of the planner touches nothing.
     assert green == 1
@@ -63,7 +63,7 @@ def test_path_is_painted_by_what_the_planner_measured(headset, picture):
     kinds = headset.js("""
       const colours = walk.stage.tube.geometry.getAttribute("color").array;
       const seen = new Set();
-      for (let ring = 0; ring < walk.stage.tube.rings; ring++) seen.add(colours.slice(ring * 18, ring * 18 + 3).join());
+      for (let ring = 0; ring < walk.stage.tube.rings; ring++) seen.add(colours.slice(ring * 8, ring * 8 + 3).join());
       return seen.size;
     """)
     assert kinds > 5

@@ -14,6 +14,8 @@ def test_what_is_released_without_a_connection_is_sent_when_it_is_back(browser, 
         graph.start_all()
         page = browser.open(graph.url)
         page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
+        # What the worker hears lies in memory that both threads see.
+        assert page.js("return crossOriginIsolated")
         before = page.js("return walk.client.store.state.keypoints")
         graph.kill("bridge")
         page.until("walk.client.store.state.connection.phase !== 'connected'", "the loss of the connection")

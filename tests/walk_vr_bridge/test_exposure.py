@@ -62,6 +62,7 @@ def test_every_answer_forbids_what_the_page_does_not_need(run, tmp_path):
                     assert "http" not in policy
                     assert response.headers["X-Content-Type-Options"] == "nosniff"
                     assert response.headers["Cross-Origin-Resource-Policy"] == "same-origin"
+                    assert response.headers["Cross-Origin-Embedder-Policy"] == "require-corp"
                     assert "Python" not in response.headers["Server"]
 
     run(scene())

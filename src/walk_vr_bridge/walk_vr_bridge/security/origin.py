@@ -16,6 +16,7 @@ CSP = (
 
 HEADERS: Mapping[str, str] = {
     "Content-Security-Policy": CSP,
+    "Cross-Origin-Embedder-Policy": "require-corp",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "xr-spatial-tracking=(self), camera=(), microphone=(), geolocation=()",

@@ -12,6 +12,7 @@ import { XrEntry } from "./xr/session";
 async function start(canvas: HTMLCanvasElement): Promise<void> {
   const client = await browserClient();
   const view = new View(canvas);
+  view.onFrame(() => client.look());
   const stage = new Stage(view, client.store);
   const xr = new XrEntry(view);
   const desktop = mountDesktop(view, stage, client, xr);

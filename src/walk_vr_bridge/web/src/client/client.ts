@@ -68,6 +68,11 @@ export class Client implements WireListener {
     this.wire.stop();
   }
 
+  /** Hears what has come: called before a frame is made, so that it shows the newest. */
+  look(): void {
+    this.wire.look();
+  }
+
   /** Calls a service of the graph by its relative name. @throws WireError. */
   ask(service: string, args: unknown = {}): Promise<unknown> {
     return this.wire.call(this.name(service), args);

@@ -14,6 +14,8 @@ export interface SocketLike {
   onerror: (() => void) | null;
   send(data: string): void;
   close(code?: number, reason?: string): void;
+  /** Hands over at once what has come, where it may wait to be fetched. */
+  empty?(): void;
 }
 
 export interface Clock {
@@ -106,6 +108,11 @@ export class Wire {
     const socket = this.socket;
     this.drop("stopped");
     socket?.close(1000);
+  }
+
+  /** Hears at once what has come, instead of when the browser finds time. */
+  look(): void {
+    this.socket?.empty?.();
   }
 
   /** Hears a topic from now on, over every reconnection. One handler a topic. */

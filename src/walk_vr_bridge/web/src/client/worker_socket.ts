@@ -2,19 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * A WebSocket that listens in a worker: a browser that draws frame after frame lets the sockets of the page itself wait, see
- * docs/design.md.
+ * docs/design.md. What it hears lies in a postbox that the page empties at the begin of each frame.
  */
 
+import { Postbox } from "./postbox";
 import type { SocketLike } from "./wire";
 
 export type ToWorker =
-  | { readonly what: "open"; readonly url: string }
+  | { readonly what: "open"; readonly url: string; readonly shared: SharedArrayBuffer | null }
   | { readonly what: "send"; readonly text: string }
   | { readonly what: "close"; readonly code?: number; readonly reason?: string };
 
 export type FromWorker =
   | { readonly what: "open" }
   | { readonly what: "error" }
+  /** Something lies in the postbox. */
+  | { readonly what: "look" }
+  /** Where there is no postbox. */
   | { readonly what: "message"; readonly data: string | ArrayBuffer }
   | { readonly what: "close"; readonly code: number; readonly reason: string };
 
@@ -40,11 +44,12 @@ export class WorkerSocket implements SocketLike {
   constructor(
     url: string,
     private readonly worker: WorkerLike,
+    private readonly postbox: Postbox | null = Postbox.make(),
   ) {
     worker.onmessage = ({ data }) => this.heard(data);
     // Its script cannot be had while the bridge is gone, unless the browser has kept it: as a connection that fails.
     worker.onerror = () => this.heard({ what: "close", code: 1006, reason: "" });
-    worker.postMessage({ what: "open", url });
+    worker.postMessage({ what: "open", url, shared: postbox?.shared ?? null });
   }
 
   send(text: string): void {
@@ -57,13 +62,18 @@ export class WorkerSocket implements SocketLike {
     this.worker.postMessage({ what: "close", code, reason });
   }
 
+  empty(): void {
+    for (let letter = this.postbox?.take(); letter != null; letter = this.postbox?.take()) this.onmessage?.({ data: letter });
+  }
+
   private heard(said: FromWorker): void {
+    this.empty();
     if (said.what === "message") this.onmessage?.(said);
     else if (said.what === "error") this.onerror?.();
     else if (said.what === "open") {
       this.readyState = OPEN;
       this.onopen?.();
-    } else {
+    } else if (said.what === "close") {
       this.readyState = CLOSED;
       this.worker.terminate();
       this.onclose?.(said);

@@ -4,6 +4,8 @@
 import { BufferAttribute, BufferGeometry, Color, Mesh, MeshBasicMaterial } from "three";
 import { GROUND_COLOUR, SKY_COLOUR } from "./palette";
 
+/** After the building, before all that is seen through. */
+const GROUND_ORDER = 6;
 const SEGMENTS = 48;
 /** Radii [m] of the rings; the outermost has the sky's colour, so that there is no horizon to be seen. */
 const RADII = [0, 14, 60, 260];
@@ -30,6 +32,7 @@ export function makeGround(): Mesh<BufferGeometry, MeshBasicMaterial> {
   geometry.setAttribute("color", new BufferAttribute(Float32Array.from(colours), 3));
   geometry.setIndex(indices);
   const mesh = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true }));
-  mesh.renderOrder = -10;
+  // Behind all that is solid: what is covered is not painted first.
+  mesh.renderOrder = GROUND_ORDER;
   return mesh;
 }

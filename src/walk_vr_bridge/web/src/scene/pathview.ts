@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { Color, Group, Mesh, type Plane, ShaderMaterial, SRGBColorSpace } from "three";
+import { Color, DoubleSide, Group, Mesh, type Plane, ShaderMaterial, SRGBColorSpace } from "three";
 import type { PathColour, PathState } from "../client/state";
 import { writeScale } from "./colourmap";
 import { PATH_COLOUR } from "./palette";
@@ -9,14 +9,25 @@ import { PathTube } from "./tube";
 
 const VERTEX = `
 #include <clipping_planes_pars_vertex>
-attribute vec3 aOffset;
+attribute vec3 aAlong;
+attribute float aEdge;
 uniform float uRadius;
 varying vec3 vTint;
-varying float vUp;
+varying float vEdge;
+varying vec2 vUp;
 void main() {
-  vTint = color;
-  vUp = aOffset.z;
-  vec4 mvPosition = modelViewMatrix * vec4(position + aOffset * uRadius, 1.0);
+  vTint = color.rgb;
+  vEdge = aEdge;
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  mat3 turn = mat3(modelViewMatrix);
+  float scale = length(turn[2]);
+  vec3 along = turn * aAlong / scale;
+  vec3 aside = cross(along, isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(-mvPosition.xyz));
+  // Who looks along the path sees its end: any side will do.
+  aside = dot(aside, aside) > 1e-9 ? normalize(aside) : vec3(1.0, 0.0, 0.0);
+  vec3 up = turn[2] / scale;
+  vUp = vec2(dot(aside, up), dot(cross(aside, along), up));
+  mvPosition.xyz += aside * (aEdge * uRadius * scale);
   gl_Position = projectionMatrix * mvPosition;
   #include <clipping_planes_vertex>
 }`;
@@ -24,10 +35,12 @@ const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform float uOpacity;
 varying vec3 vTint;
-varying float vUp;
+varying float vEdge;
+varying vec2 vUp;
 void main() {
   #include <clipping_planes_fragment>
-  gl_FragColor = vec4(vTint * (0.78 + 0.22 * vUp), uOpacity);
+  float up = vUp.x * vEdge + vUp.y * sqrt(max(0.0, 1.0 - vEdge * vEdge));
+  gl_FragColor = vec4(vTint * (0.78 + 0.22 * up), uOpacity);
   #include <colorspace_fragment>
 }`;
 
@@ -54,6 +67,7 @@ export class PathView {
       vertexShader: VERTEX,
       fragmentShader: FRAGMENT,
       vertexColors: true,
+      side: DoubleSide,
       clipping: planes.length > 0,
       clippingPlanes: planes,
       transparent: hidden,

@@ -44,7 +44,7 @@ void main() {
     vec3 light = mix(vec3(0.56, 0.54, 0.53), vec3(0.76, 0.78, 0.82), sky);
     light += vec3(0.27, 0.255, 0.22) * sun + 0.10 * facing + side;
     // Undersides of slabs are what ceilings look like from below.
-    vec3 tint = mix(vTint, vec3(0.93, 0.92, 0.9), 0.75 * smoothstep(0.5, 0.9, -normal.z));
+    vec3 tint = mix(vTint, vec3(0.93, 0.92, 0.9), 0.75 * clamp(-2.5 * normal.z - 1.25, 0.0, 1.0));
     gl_FragColor = vec4(tint * light, uOpacity);
   }
   #include <colorspace_fragment>

@@ -3,6 +3,7 @@
 
 import { Color, DirectionalLight, Group, HemisphereLight, type OrthographicCamera, PerspectiveCamera } from "three";
 import { Scene, Vector3, WebGLRenderer } from "three";
+import { useFastColours } from "./colourspace";
 import { makeGround } from "./ground";
 import { SKY_COLOUR } from "./palette";
 import type { Ray } from "./place";
@@ -32,6 +33,7 @@ export class View {
   constructor(private readonly canvas: HTMLCanvasElement) {
     // Without a graphics card smooth edges take twice as long, and the page hears nothing while it draws.
     const antialias = !new URLSearchParams(window.location.search).has("plain");
+    useFastColours();
     this.renderer = new WebGLRenderer({ canvas, antialias, powerPreference: "high-performance" });
     this.renderer.localClippingEnabled = true;
     this.renderer.xr.enabled = true;

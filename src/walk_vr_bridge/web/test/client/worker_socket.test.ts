@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import { Postbox } from "../../src/client/postbox";
 import { WorkerSocket, type ToWorker, type WorkerLike } from "../../src/client/worker_socket";
 
 class FakeWorker implements WorkerLike {
@@ -16,9 +17,9 @@ class FakeWorker implements WorkerLike {
   }
 }
 
-function setUp() {
+function setUp(postbox: Postbox | null = null) {
   const worker = new FakeWorker();
-  const socket = new WorkerSocket("ws://here/ws", worker);
+  const socket = new WorkerSocket("ws://here/ws", worker, postbox);
   const told: unknown[] = [];
   socket.onopen = () => told.push("open");
   socket.onmessage = ({ data }) => told.push(data);
@@ -35,7 +36,7 @@ describe("a socket in a worker", () => {
     socket.send("{}");
     worker.onmessage!({ data: { what: "message", data: "hello" } });
     expect(worker.asked).toEqual([
-      { what: "open", url: "ws://here/ws" },
+      { what: "open", url: "ws://here/ws", shared: null },
       { what: "send", text: "{}" },
     ]);
     expect(told).toEqual(["open", "hello"]);
@@ -56,5 +57,19 @@ describe("a socket in a worker", () => {
     expect(worker.ended).toBe(false);
     worker.onmessage!({ data: { what: "close", code: 1000, reason: "bye" } });
     expect([socket.readyState, worker.ended, told.at(-1)]).toEqual([3, true, [1000, "bye"]]);
+  });
+
+  it("hears what lies in the postbox when it is told to look, at the begin of a frame, and before it closes", () => {
+    const postbox = Postbox.make()!;
+    const { worker, socket, told } = setUp(postbox);
+    const writer = new Postbox(postbox.shared);
+    expect(worker.asked).toEqual([{ what: "open", url: "ws://here/ws", shared: postbox.shared }]);
+    writer.put("one");
+    worker.onmessage!({ data: { what: "look" } });
+    writer.put("two");
+    socket.empty();
+    writer.put("three");
+    worker.onmessage!({ data: { what: "close", code: 1006, reason: "" } });
+    expect(told).toEqual(["one", "two", "three", [1006, ""]]);
   });
 });

@@ -1,33 +1,45 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { MAX_RINGS, PathTube, SIDES } from "../../src/scene/tube";
+import type { BufferAttribute } from "three";
+import { EDGES, MAX_RINGS, PathTube } from "../../src/scene/tube";
 
-function offsets(tube: PathTube, ring: number): number[][] {
-  const array = tube.geometry.getAttribute("aOffset").array;
-  const at = (side: number): number => (ring * SIDES + side) * 3;
-  return Array.from({ length: SIDES }, (_, side) => Array.from(array.slice(at(side), at(side) + 3)));
+function along(tube: PathTube, ring: number): number[] {
+  const at = ring * EDGES * 3;
+  return Array.from(tube.geometry.getAttribute("aAlong").array.slice(at, at + 3));
 }
 
 const dot = (a: number[], b: number[]): number => a.reduce((sum, value, i) => sum + value * b[i], 0);
 
 describe("the path's tube", () => {
-  it("has rings across the way, of unit length", () => {
+  it("knows the way at each of its rings, as a unit vector", () => {
     const tube = new PathTube();
     tube.setPath(Float32Array.from([0, 0, 0, 1, 1, 0, 2, 2, 1, 2, 3, 2]), 4);
     const ways = [[1, 1, 0], [2, 2, 1], [1, 2, 2], [0, 1, 1]];
     ways.forEach((way, ring) => {
-      for (const offset of offsets(tube, ring)) {
-        expect(dot(offset, offset)).toBeCloseTo(1, 5);
-        expect(dot(offset, way)).toBeCloseTo(0, 5);
-      }
+      expect(dot(along(tube, ring), along(tube, ring))).toBeCloseTo(1, 5);
+      expect(dot(along(tube, ring), way)).toBeCloseTo(Math.hypot(...way), 5);
     });
   });
 
-  it("does not twist where the way goes straight up", () => {
+  it("has two edges at one place of the path", () => {
     const tube = new PathTube();
-    tube.setPath(Float32Array.from([0, 0, 0, 1, 0, 0, 1, 0, 1, 1, 0, 2, 2, 0, 2]), 5);
-    for (let ring = 1; ring < 5; ring++) expect(dot(offsets(tube, ring)[0], offsets(tube, ring - 1)[0])).toBeGreaterThan(0.99);
+    tube.setPath(Float32Array.from([0, 0, 0, 1, 2, 3]), 2);
+    expect(Array.from(tube.geometry.getAttribute("position").array.slice(6, 12))).toEqual([1, 2, 3, 1, 2, 3]);
+    expect(Array.from(tube.geometry.getAttribute("aEdge").array.slice(0, 4))).toEqual([-1, 1, -1, 1]);
+  });
+
+  it("keeps its way where the path stands still", () => {
+    const tube = new PathTube();
+    tube.setPath(Float32Array.from([0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0]), 4);
+    for (let ring = 0; ring < 4; ring++) expect(along(tube, ring)).toEqual([1, 0, 0]);
+  });
+
+  it("hands the graphics card no more than the rings in use", () => {
+    const tube = new PathTube();
+    tube.setPath(Float32Array.from([0, 0, 0, 1, 0, 0]), 2);
+    const { updateRanges } = tube.geometry.getAttribute("position") as BufferAttribute;
+    expect(updateRanges).toEqual([{ start: 0, count: 12 }]);
   });
 
   it("never grows its buffers: a long path is shown by fewer rows, its ends kept", () => {
@@ -39,7 +51,7 @@ describe("the path's tube", () => {
     expect(tube.rings).toBe(MAX_RINGS);
     expect(tube.rowOf[0]).toBe(0);
     expect(tube.rowOf[MAX_RINGS - 1]).toBe(count - 1);
-    expect(tube.geometry.drawRange.count).toBe((MAX_RINGS - 1) * SIDES * 6);
+    expect(tube.geometry.drawRange.count).toBe((MAX_RINGS - 1) * 6);
   });
 
   it("shows nothing of an empty path", () => {
