@@ -23,6 +23,7 @@ from walk_ros.conversions import path_to_msg
 from walk_ros.conversions.cdr import path_to_bytes, trajectory_to_bytes
 from walk_ros.raw import from_bytes, to_bytes
 from walk_vr_bridge.errors import ProtocolError
+from walk_vr_bridge.wire.cbor_rows import path_to_cbor, trajectory_to_cbor
 from walk_vr_bridge.wire.decoding import decoder
 from walk_vr_bridge.wire.encoding import encoder
 from walk_vr_bridge.wire.message import Message
@@ -102,6 +103,26 @@ def test_each_form_of_a_frame_says_the_same():
     assert (said["op"], said["topic"]) == ("publish", "/walk/path")
     assert cbor2.loads(message.frame("cbor"))["msg"] == said["msg"] == reflected(from_bytes(data, "nav_msgs/msg/Path"))
     assert cbor2.loads(message.frame("cbor-raw"))["msg"]["bytes"] == data
+
+
+@pytest.mark.parametrize("n", [0, 1, 23, 24, 300])
+def test_rows_written_as_cbor_are_those_of_the_message(n):
+    walk = Walk(n)
+    data = path_to_bytes(walk.t_s, walk.positions, walk.quat_xyzw, 5 * 10**9 + 7)
+    assert cbor2.loads(path_to_cbor(data)) == reflected(from_bytes(data, "nav_msgs/msg/Path"))
+    data = trajectory_to_bytes(walk, 5 * 10**9 + 7)
+    expected = reflected(from_bytes(data, "trajectory_msgs/msg/MultiDOFJointTrajectory"))
+    assert cbor2.loads(trajectory_to_cbor(data)) == expected
+    frame = Message("/walk/trajectory", "trajectory_msgs/MultiDOFJointTrajectory", data).frame("cbor")
+    assert cbor2.loads(frame) == {"op": "publish", "topic": "/walk/trajectory", "msg": expected}
+
+
+def test_cbor_of_times_before_1970_takes_the_way_over_the_message():
+    walk = Walk(3)
+    data = path_to_bytes(walk.t_s - 5.0, walk.positions, walk.quat_xyzw, 7)
+    assert path_to_cbor(data) is None
+    frame = Message("/walk/path", "nav_msgs/Path", data).frame("cbor")
+    assert cbor2.loads(frame)["msg"] == reflected(from_bytes(data, "nav_msgs/msg/Path"))
 
 
 def test_cbor_has_arrays_of_numbers_as_typed_arrays():

@@ -12,6 +12,7 @@ import cbor2
 import orjson
 
 from walk_ros.raw import from_bytes
+from walk_vr_bridge.wire.cbor_rows import path_to_cbor, trajectory_to_cbor
 from walk_vr_bridge.wire.encoding import encoder
 from walk_vr_bridge.wire.rows import path_to_dict, trajectory_to_dict
 from walk_vr_bridge.wire.schema import message_class
@@ -24,6 +25,11 @@ _FROM_BYTES: dict[str, Callable[[bytes], dict[str, Any] | None]] = {
     "trajectory_msgs/MultiDOFJointTrajectory": trajectory_to_dict,
 }
 """Ways around the message class for those that an edit waits for."""
+
+_CBOR_FROM_BYTES: dict[str, Callable[[bytes], bytes | None]] = {
+    "nav_msgs/Path": path_to_cbor,
+    "trajectory_msgs/MultiDOFJointTrajectory": trajectory_to_cbor,
+}
 
 
 class Message:
@@ -68,10 +74,17 @@ class Message:
         if form == "none":
             return text_frame(self.topic, self.values())
         if form == "cbor":
-            return cbor2.dumps({"op": "publish", "topic": self.topic, "msg": self.values("cbor")})
+            quick = _CBOR_FROM_BYTES.get(self.type_name)
+            body = quick(self.data) if quick is not None else None
+            return _cbor_frame(self.topic, cbor2.dumps(self.values("cbor")) if body is None else body)
         secs, nsecs = divmod(self._received_ns, 10**9)
         raw = {"secs": secs, "nsecs": nsecs, "bytes": self.data}
-        return cbor2.dumps({"op": "publish", "topic": self.topic, "msg": raw})
+        return _cbor_frame(self.topic, cbor2.dumps(raw))
+
+
+def _cbor_frame(topic: str, body: bytes) -> bytes:
+    """Returns the CBOR frame of a message that is encoded already: a map of three."""
+    return b"\xa3" + b"".join(map(cbor2.dumps, ("op", "publish", "topic", topic, "msg"))) + body
 
 
 def text_frame(topic: str, values: Any) -> bytes:
