@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -111,13 +112,16 @@ def require_editor(role: str, what: str) -> None:
 
 
 def require_settable(parameters: Any) -> None:
-    """Raises NotAllowedError where a request sets a parameter that clients may not set."""
+    """Raises NotAllowedError where a request sets a parameter that clients may not set, or sets one to no number."""
     for parameter in parameters:
         group, dot, _ = parameter.name.partition(".")
         if not dot or group not in PARAMETER_GROUPS:
             raise NotAllowedError(
                 f"set {parameter.name[:80]}", f"clients set parameters of {', '.join(PARAMETER_GROUPS)} only"
             )
+        value = parameter.value
+        if not all(map(math.isfinite, (value.double_value, *value.double_array_value))):
+            raise NotAllowedError(f"set {parameter.name[:80]}", "the value is NaN or infinite; expected a finite one")
 
 
 def _services() -> dict[str, Service]:

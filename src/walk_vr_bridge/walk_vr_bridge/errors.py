@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from walk_building.errors import WalkError
 
 
@@ -16,6 +18,18 @@ class ProtocolError(WalkError, ValueError):
 
     def __init__(self, reason: str) -> None:
         self.reason = reason
+        super().__init__(reason)
+
+
+class UnreadableError(ProtocolError):
+    """A frame that is no JSON object.
+
+    Attributes:
+        said: What it seems to say all the same, empty where nothing can be made of it.
+    """
+
+    def __init__(self, reason: str, said: dict[str, Any]) -> None:
+        self.said = said
         super().__init__(reason)
 
 

@@ -13,9 +13,10 @@ from walk_building.errors import WalkError
 from walk_vr_bridge.allowed import SESSION, Allowed, require_settable
 from walk_vr_bridge.client import LEVELS, Client
 from walk_vr_bridge.edits import EditDesk, label_of, refusal
-from walk_vr_bridge.errors import NotAllowedError, ProtocolError
+from walk_vr_bridge.errors import NotAllowedError, ProtocolError, UnreadableError
 from walk_vr_bridge.hub import Hub
 from walk_vr_bridge.limits import MAX_CALLS, MAX_FRAGMENTS, MAX_MESSAGE
+from walk_vr_bridge.refusing import edit_of, gist
 from walk_vr_bridge.rosapi import answer_rosapi
 from walk_vr_bridge.subscriptions import Wish
 from walk_vr_bridge.wire.decoding import decoder
@@ -71,10 +72,11 @@ class Operations:
         }
 
     def receive(self, client: Client, data: str | bytes) -> None:
-        """Does what a frame of a client says; what is wrong with it is told in a `status`."""
+        """Does what a frame of a client says; what is wrong with it is answered as it was asked, else in a `status`."""
+        said: dict[str, Any] = {}
         identity: object = None
         try:
-            said = parse(data)
+            said = _read(data)
             identity = said.get("id")
             if identity is not None and (not isinstance(identity, str | int) or len(str(identity)) > 200):
                 raise ProtocolError(f"id is {identity!r:.60}; expected a short text")
@@ -82,9 +84,28 @@ class Operations:
             if handler is None:
                 raise ProtocolError(f"op is {said.get('op')!r:.60}; expected one of {', '.join(self._handlers)}")
             handler(client, said)
+        except UnreadableError as error:
+            self._refuse(client, error.said, str(error))
         except WalkError as error:
-            client.wrong()
-            client.status("error", str(error), identity)
+            self._refuse(client, said, str(error), identity)
+
+    def _refuse(self, client: Client, said: dict[str, Any], reason: str, identity: object = None) -> None:
+        """Answers what was not understood: an edit and a call as such, so that whoever waits for it is told."""
+        client.wrong()
+        if said.get("op") == "call_service":
+            _respond(client, said.get("service"), said.get("id"), reason, done=False)
+            return
+        topic = said.get("topic")
+        if said.get("op") == "publish" and isinstance(topic, str) and self._allowed.full(topic) == self._edits_topic:
+            keypoint, label_ns = edit_of(said)
+            self._refuse_edit(client, keypoint, label_ns, reason)
+            return
+        client.status("error", reason, identity)
+
+    def _refuse_edit(self, client: Client, keypoint: str, label_ns: int, reason: str) -> None:
+        values = refusal(client.identity, keypoint, label_ns, reason)
+        client.deliver_values(self._allowed.full("edit_results"), values)
+        client.status("error", reason)
 
     def answered(self, topic: str, values: dict[str, Any]) -> None:
         """Hands an answer of the sequencer or trajopt on to the client whose edit it is about."""
@@ -142,9 +163,7 @@ class Operations:
         except NotAllowedError as error:
             reason = str(error)
         if reason:
-            values = refusal(client.identity, msg.marker_name, label_ns, reason)
-            client.deliver_values(self._allowed.full("edit_results"), values)
-            client.status("error", reason)
+            self._refuse_edit(client, msg.marker_name, label_ns, reason)
 
     def _call_service(self, client: Client, said: dict[str, Any]) -> None:
         name, identity = said.get("service"), said.get("id")
@@ -190,7 +209,7 @@ class Operations:
         if len(parts) == total:
             del client.fragments[identity]
             text = "".join(part for _, part in sorted(parts.items()))
-            if parse(text).get("op") == "fragment":
+            if _nests(text):
                 raise ProtocolError("a fragment holds a fragment")
             self.receive(client, text)
 
@@ -198,6 +217,24 @@ class Operations:
         if said.get("level") not in LEVELS:
             raise ProtocolError(f"level is {said.get('level')!r:.60}; expected one of {', '.join(LEVELS)}")
         client.level = said["level"]
+
+
+def _read(data: str | bytes) -> dict[str, Any]:
+    """Returns what a frame says; raises UnreadableError where it is no JSON object."""
+    try:
+        return parse(data)
+    except ProtocolError as error:
+        said = gist(data)
+        reason = "a number is NaN or infinite; expected a finite one" if said else error.reason
+        raise UnreadableError(reason, said) from error
+
+
+def _nests(text: str) -> bool:
+    """Returns whether the whole of some fragments is a fragment again."""
+    try:
+        return parse(text).get("op") == "fragment"
+    except ProtocolError:
+        return False
 
 
 def parse(data: str | bytes) -> dict[str, Any]:
