@@ -89,7 +89,7 @@ def open_door(config: BridgeConfig, folder: Path, show: Callable[[str], None]) -
 def welcome(door: Door, port: int) -> str:
     """Returns what the user is shown once the bridge listens; with `lan` it holds secrets."""
     if door.tls is None:
-        return f"Headset page: http://localhost:{port}\n"
+        return f"Page, on this machine: http://localhost:{port} (--lan lets headsets in)\n"
 
     def address(name: str, role: str) -> str:
         return f"https://{name}:{port}/#token={door.access.tokens[role]}"

@@ -21,9 +21,9 @@ def invitation(address: str, others: list[str], viewer: str, fingerprint: str) -
     lines = [
         "",
         qr_code(address),
-        f"Headset page, for editing: {address}",
-        *(f"                       or: {other}" for other in others),
-        f"For looking on:            {viewer}",
+        f"Page, for editing: {address}",
+        *(f"               or: {other}" for other in others),
+        f"For looking on:    {viewer}",
         "The browser warns about the certificate once; it is this bridge if the SHA-256 fingerprint is",
         f"  {fingerprint[:47]}",
         f"  {fingerprint[48:]}",

@@ -15,6 +15,7 @@ import { initialState, Store } from "./store";
 import { BROWSER_CLOCK, Wire, type Clock, type SocketLike, type WireListener } from "./wire";
 import { openInWorker } from "./worker_socket";
 
+const CONNECTING = "Connecting …";
 const ADMISSION_AGAIN_MS = 2000;
 /** Others may change parameters too, and no topic says so. */
 const PARAMETERS_AGAIN_MS = 15000;
@@ -40,7 +41,7 @@ export class Client implements WireListener {
 
   /** Gets in and connects; where a code is needed first, the phase is `pairing` until `start` is called again. */
   async start(): Promise<void> {
-    this.store.patch("connection", { phase: "connecting", message: "Connecting …" });
+    this.store.patch("connection", { phase: "connecting", message: CONNECTING });
     const admission = await askAdmission().catch(() => null);
     if (!admission) {
       this.store.patch("connection", { phase: "waiting", message: "The bridge does not answer. Trying again …" });
@@ -84,7 +85,10 @@ export class Client implements WireListener {
   }
 
   opening(): void {
-    this.store.patch("connection", { phase: "connecting", message: "Connecting …", retryAtMs: 0 });
+    // Between two attempts the sentence stays: one that comes and goes cannot be read.
+    const { phase, message } = this.store.state.connection;
+    const again = phase === "waiting";
+    this.store.patch("connection", { phase: "connecting", message: again ? message : CONNECTING, retryAtMs: 0 });
   }
 
   opened(): void {

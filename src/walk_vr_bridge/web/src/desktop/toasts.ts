@@ -5,6 +5,7 @@
 import { type Camera, Vector3 } from "three";
 import type { Client } from "../client/client";
 import type { Refusal } from "../client/state";
+import { sentence } from "../client/words";
 import { element } from "../panel/element";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
@@ -93,12 +94,6 @@ export class Toasts {
     toast.root.remove();
     this.toasts = this.toasts.filter((other) => other !== toast);
   }
-}
-
-/** Reasons come as clauses; on a toast they begin and end like a sentence. */
-function sentence(reason: string): string {
-  const text = reason.charAt(0).toUpperCase() + reason.slice(1);
-  return /[.!?…]$/.test(text) ? text : `${text}.`;
 }
 
 const AT = new Vector3();

@@ -67,7 +67,7 @@ function noteOf(): Shown<w.Note> {
     update({ id, text, tone }) {
       root.dataset.id = id;
       root.className = `note ${tone}`;
-      if (tone === "warn" || tone === "good") root.setAttribute("role", "status");
+      if (tone === "warn" || tone === "wait" || tone === "good") root.setAttribute("role", "status");
       setText(root, text);
     },
   };

@@ -10,6 +10,8 @@ const GAP = 16;
 const ROW = 80;
 const INNER = WIDTH - 2 * PAD;
 const MARKS_LEAST = 24;
+/** Letters of titles and headings are so much wider than they are measured. */
+const BOLD = 1.14;
 
 export function layOut(tab: TabId, open: (tab: TabId) => void, sections: readonly Section[], measure: Measure): Layout {
   const pen = new Pen(measure);
@@ -132,7 +134,8 @@ class Pen {
   }
 
   private text(key: string, text: string, size: number, look: Look, tone?: string): void {
-    const broken = lines(text, size, INNER, this.measure);
+    const bold = tone === "title" || look === "heading";
+    const broken = lines(text, size, bold ? INNER / BOLD : INNER, this.measure);
     this.full(
       key,
       look,
@@ -182,7 +185,9 @@ class Pen {
     const gap = 6;
     // As many in a line as fit with their texts.
     const widest = Math.max(...options.map(({ label }) => this.measure(label, SIZE.body))) + 36;
-    const across = Math.min(options.length, Math.max(1, Math.floor((INNER + gap) / (widest + gap))));
+    const most = Math.min(options.length, Math.max(1, Math.floor((INNER + gap) / (widest + gap))));
+    // Lines of one length: none of them holds a single one that is left over.
+    const across = Math.ceil(options.length / Math.ceil(options.length / most));
     const w = (INNER - gap * (across - 1)) / across;
     options.forEach((option, index) => {
       const place = {

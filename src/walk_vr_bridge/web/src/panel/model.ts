@@ -99,7 +99,9 @@ export class PanelModel {
     const section: Section = { id: "connection", title: "", widgets: [] };
     if (connection.phase !== "connected") {
       const retry = button("retry", "Try now", () => this.client.retry());
-      const widgets = [{ kind: "note", id: "connection", text: connection.message, tone: "warn" } as const];
+      // Red is for what has come to an end; what is tried again needs nobody.
+      const tone = connection.phase === "refused" ? "warn" : connection.message === "Connecting …" ? "plain" : "wait";
+      const widgets = [{ kind: "note", id: "connection", text: connection.message, tone } as const];
       return { ...section, widgets: connection.phase === "waiting" ? [...widgets, retry] : widgets };
     }
     if (session.role === "editor") return section;

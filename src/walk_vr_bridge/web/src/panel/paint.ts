@@ -16,6 +16,7 @@ const C = {
   hover: "#dfe8f0",
   bad: "#a51d25",
   good: "#14743f",
+  wait: "#7a5200",
   pin: "#ffb02e",
   off: "#b4bfc8",
 } as const;
@@ -96,7 +97,7 @@ function tab(pen: CanvasRenderingContext2D, zone: Zone, hovered: boolean): void 
 }
 
 function note(pen: CanvasRenderingContext2D, zone: Zone): void {
-  const colour = { warn: C.bad, good: C.good, title: C.ink }[zone.tone ?? ""] ?? C.soft;
+  const colour = { warn: C.bad, wait: C.wait, good: C.good, title: C.ink }[zone.tone ?? ""] ?? C.soft;
   const title = zone.tone === "title";
   write(pen, zone.lines, zone.x, zone.y, title ? SIZE.title : SIZE.body, colour, title ? 600 : 400);
 }

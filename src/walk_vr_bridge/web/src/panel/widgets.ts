@@ -90,7 +90,7 @@ export interface Note {
   readonly kind: "note";
   readonly id: string;
   readonly text: string;
-  readonly tone: "plain" | "good" | "warn" | "title";
+  readonly tone: "plain" | "good" | "wait" | "warn" | "title";
 }
 
 /** A colour scale with what its ends mean. */

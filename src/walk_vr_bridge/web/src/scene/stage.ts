@@ -5,6 +5,7 @@ import { Box3, Group, type Plane, Vector3 } from "three";
 import { playbackTimeS, type PathPoint, pathPoint, samplePath } from "../client/playback";
 import type { Keypoint } from "../client/state";
 import type { Store } from "../client/store";
+import { sentence } from "../client/words";
 import { headingOf, makeWorld } from "./axes";
 import { Bin } from "./bin";
 import { BuildingCopy } from "./copy";
@@ -30,6 +31,8 @@ const MINIATURE_BELOW_M = 0.6;
 const FULL_BELOW_M = 0.35;
 const FULL_PATH_BELOW_M = 1.35;
 const REFUSAL_S = 6;
+/** A sentence is written so much larger than a keypoint's name: it has to be read through. */
+export const SENTENCE_TIMES = 2.2;
 /** A keypoint in the miniature, in the room [m]. */
 const PIN_IN_HAND_M = 0.0075;
 
@@ -192,7 +195,7 @@ export class Stage {
     const overlay = this.overlayInView();
     overlay.place.shown(at, AT);
     AT.y += overlay.size * overlay.place.scale * 4;
-    this.refusalNote.show(last.reason, AT, REFUSAL_S);
+    this.refusalNote.show(sentence(last.reason), AT, REFUSAL_S, SENTENCE_TIMES);
   }
 
   private update(seconds: number): void {

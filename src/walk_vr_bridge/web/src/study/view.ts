@@ -70,7 +70,8 @@ export class StudyView {
   }
 
   private invitation(): Widget[] {
-    const ready = optimiserSwitch(this.client.store.state.parameters) !== null;
+    const { parameters, session } = this.client.store.state;
+    const ready = optimiserSwitch(parameters) !== null;
     const [first] = orderOf(this.participant);
     const text =
       "Each participant does the same tasks with the optimiser off and on, and answers the SUS and the NASA-TLX after each.";
@@ -97,7 +98,11 @@ export class StudyView {
       },
       note("order", `Begins with: ${CONDITION_TITLES[first].toLowerCase()}`, "plain"),
       ...missing,
-      this.press("begin", "Begin", () => this.run.begin(this.participant), { tone: "primary", disabled: !ready }),
+      this.press("begin", "Begin", () => this.run.begin(this.participant), {
+        tone: "primary",
+        // Who looks on can switch nothing; the panel says so.
+        disabled: !ready || session.role !== "editor",
+      }),
     ];
   }
 
@@ -130,7 +135,7 @@ export class StudyView {
         text: (index) => String(index + 1),
         choose: (index) => this.change(() => run.answerSus(index + 1)),
       },
-      this.steps(answer === null ? "Leave out" : "Next"),
+      this.steps(answer === null ? LEAVE_OUT : "Next"),
     ];
   }
 
@@ -171,7 +176,9 @@ export class StudyView {
   private steps(next: string): Widget {
     const { run } = this;
     const back = this.press("back", "Back", () => run.back(), { disabled: run.question === 0 });
-    const on = this.press("next", next, () => run.next(), { tone: "primary", disabled: !run.answered });
+    // What is left out is not what one is asked for.
+    const more = next === LEAVE_OUT ? {} : { tone: "primary" as const, disabled: !run.answered };
+    const on = this.press("next", next, () => run.next(), more);
     return { kind: "row", id: "steps", buttons: [back, on] };
   }
 
@@ -185,7 +192,9 @@ export class StudyView {
 
   private exports(): Widget[] {
     const { events } = this.log;
-    if (events.length === 0) return [];
+    const { step } = this.run;
+    // Who answers sees questions, and nothing that is the experimenter's.
+    if (events.length === 0 || (step !== "idle" && step !== "done")) return [];
     const csv = button("csv", "CSV", () => this.download("study.csv", "text/csv", eventsToCsv(events)), {
       icon: "download",
     });
@@ -213,6 +222,8 @@ export class StudyView {
     for (const listener of this.listeners) listener();
   }
 }
+
+const LEAVE_OUT = "Leave out";
 
 function note(id: string, text: string, tone: "plain" | "good" | "warn" | "title"): Widget {
   return { kind: "note", id, text, tone };

@@ -5,7 +5,7 @@ import { Mesh, MeshBasicMaterial, SphereGeometry, Vector3 } from "three";
 import type { Actions } from "../client/actions";
 import type { Overlay } from "../scene/overlay";
 import { KEYPOINT } from "../scene/palette";
-import type { Stage } from "../scene/stage";
+import { SENTENCE_TIMES, type Stage } from "../scene/stage";
 import type { HandInput } from "./input";
 import { makeMeeting, meetBuilding } from "./surface";
 
@@ -50,7 +50,7 @@ export class Adding {
     this.ball.visible = false;
     if (!this.overlay) {
       const sentence = "There is no floor here. Let go over a floor of the building or the miniature.";
-      this.stage.refusalNote.show(sentence, this.ball.position, 4);
+      this.stage.refusalNote.show(sentence, this.ball.position, 4, SENTENCE_TIMES);
       return;
     }
     const { x, y, z } = this.target;

@@ -5,7 +5,7 @@ import { Matrix4, Vector3 } from "three";
 import type { Actions } from "../client/actions";
 import type { Store } from "../client/store";
 import { MINIATURE_M } from "../scene/miniature";
-import type { Stage, StageMode } from "../scene/stage";
+import { SENTENCE_TIMES, type Stage, type StageMode } from "../scene/stage";
 import type { View } from "../scene/view";
 import { Carry } from "./carry";
 import { Comfort } from "./comfort";
@@ -22,8 +22,6 @@ import { Travel } from "./travel";
 const MINIATURE_AT = [0, 0.82, 0.62] as const;
 const BIN_AT = [0.44, 0.92, 0.46] as const;
 const PANEL_AT = [-0.58, 1.25, 0.52] as const;
-/** A sentence in front of the eyes is so much larger than a keypoint's name. */
-const SENTENCE_TIMES = 2.2;
 
 /** The headset: both hands at work in a room with the building around and the miniature at hand. */
 export class XrRoom implements HandlerWorld {

@@ -88,6 +88,17 @@ describe("hits", () => {
   });
 });
 
+describe("titles", () => {
+  it("fit, though bold letters are wider than they are measured", () => {
+    const text = "I think that I would like to use this system frequently.";
+    const widget = { kind: "note", id: "title", text, tone: "title" } as const;
+    const { zones } = layOut("study", () => undefined, [{ id: "one", title: "", widgets: [widget] }], measure);
+    const zone = zones.find(({ key }) => key === "one/title")!;
+    expect(zone.lines.join(" ")).toBe(text);
+    for (const line of zone.lines) expect(1.12 * measure(line, SIZE.title)).toBeLessThanOrEqual(zone.w);
+  });
+});
+
 describe("lines", () => {
   it("hold all words in their order and fit where a word does", () => {
     const text = "Move the keypoints so that the tour shows a visitor every room of the storey you are on.";

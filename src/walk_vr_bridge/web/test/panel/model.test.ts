@@ -98,6 +98,15 @@ describe("the panel's model", () => {
     expect(asked).toEqual([["retry"]]);
   });
 
+  it("shows in red only what has come to an end", () => {
+    const { model, store } = setUp();
+    const tones = (["connecting", "waiting", "refused"] as const).map((phase) => {
+      store.patch("connection", { phase, message: phase === "connecting" ? "Connecting …" : "The connection is lost." });
+      return find(model, "note", "connection").tone;
+    });
+    expect(tones).toEqual(["plain", "wait", "warn"]);
+  });
+
   it("offers a better order only where it saves something", () => {
     const { model, store, asked } = setUp();
     expect(find(model, "button", "replan").label).toBe("Look for a better order");

@@ -5,7 +5,7 @@ import { orderOf, TASKS } from "../../src/study/design";
 import { eventsToCsv, eventsToJson } from "../../src/study/events";
 import { susScore } from "../../src/study/sus";
 import { TLX_PAIRS, TLX_SCALES } from "../../src/study/tlx";
-import { find, setUp } from "../panel/fixtures";
+import { find, setUp, widgets } from "../panel/fixtures";
 
 type World = ReturnType<typeof setUp>;
 
@@ -116,6 +116,25 @@ describe("a study", () => {
     world.model.open("study");
     expect(find(world.model, "button", "begin").disabled).toBe(true);
     expect(find(world.model, "note", "no-switch").text).toContain("nothing to compare");
+  });
+
+  it("cannot be begun by who looks on", () => {
+    const world = setUp();
+    world.model.open("study");
+    expect(find(world.model, "button", "begin").disabled).toBe(false);
+    world.store.patch("session", { role: "viewer" });
+    expect(find(world.model, "button", "begin").disabled).toBe(true);
+  });
+
+  it("shows who answers nothing of the experimenter's, and asks nobody to leave out a question", () => {
+    const world = begun();
+    const ids = (): string[] => widgets(world.model.sections()).map(({ id }) => id);
+    expect(ids()).not.toContain("csv");
+    world.study.run.step = "sus";
+    expect(find(world.model, "button", "next")).toMatchObject({ label: "Leave out" });
+    expect(find(world.model, "button", "next").tone).toBeUndefined();
+    find(world.model, "button", "break-off").run();
+    expect(ids()).toContain("csv");
   });
 
   it("can be broken off and keeps what was recorded", () => {
