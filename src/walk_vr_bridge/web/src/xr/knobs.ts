@@ -9,6 +9,8 @@ import type { HandInput } from "./input";
 /** In the room [m]. */
 const KNOB_M = 0.016;
 const REACH_M = 0.06;
+/** A knob that a hand is at is so much larger. */
+const GROWN = 1.35;
 
 /** `level` moves the cut up and down and snaps to storeys; `free` holds it like a sheet of paper. */
 export type KnobName = "level" | "free";
@@ -35,7 +37,8 @@ export class Knobs {
 
   /** The knob within a hand's reach, else the one its ray meets; null: none. */
   at(hand: HandInput): KnobName | null {
-    for (const name of NAMES) {
+    for (let i = 0; i < NAMES.length; i++) {
+      const name = NAMES[i];
       this.mesh(name).getWorldPosition(AT);
       if (AT.distanceTo(hand.tip) < REACH_M) return name;
       AT.sub(hand.ray.origin);
@@ -75,11 +78,16 @@ export class Knobs {
   update(): void {
     const { miniature, bounds } = this.stage;
     const size = KNOB_M / this.stage.inMiniature.place.scale;
-    for (const name of NAMES) this.mesh(name).scale.setScalar(size * (this.hover === name ? 1.35 : 1));
+    this.level.scale.setScalar(this.hover === "level" ? GROWN * size : size);
+    this.free.scale.setScalar(this.hover === "free" ? GROWN * size : size);
     if (this.seen === miniature.clip.version && this.corners.getX(0) === bounds.min.x) return;
     this.seen = miniature.clip.version;
-    const { clip } = miniature;
-    const { min, max } = bounds;
+    this.layFrame(size);
+  }
+
+  private layFrame(size: number): void {
+    const { clip } = this.stage.miniature;
+    const { min, max } = this.stage.bounds;
     const height = (x: number, y: number): number => Math.min(max.z + 1, Math.max(min.z - 1, clip.heightAt(x, y)));
     this.corners.setXYZ(0, min.x, min.y, height(min.x, min.y));
     this.corners.setXYZ(1, max.x, min.y, height(max.x, min.y));

@@ -3,7 +3,7 @@
 
 /** What a hand is at: near things first, then what its ray points at. */
 
-import { Vector3 } from "three";
+import { Plane, Vector3 } from "three";
 import type { Keypoint } from "../client/state";
 import type { Overlay } from "../scene/overlay";
 import type { Stage } from "../scene/stage";
@@ -73,15 +73,17 @@ function hidden(stage: Stage, from: Vector3, along: Vector3, most: number): bool
 
 /** What is cut away in the miniature cannot be grabbed there. */
 function skip(stage: Stage, overlay: Overlay): (keypoint: Keypoint) => boolean {
-  current.stage = stage;
-  return overlay === stage.inMiniature ? cutAway : never;
+  const { clip } = stage.miniature;
+  if (overlay !== stage.inMiniature || !clip.active) return never;
+  cut.plane = clip.plane;
+  cut.lowerM = stage.eyeHeightM - 0.1;
+  return cutAway;
 }
 
-const current: { stage: Stage | null } = { stage: null };
+const cut = { plane: new Plane(), lowerM: 0 };
 const never = (): boolean => false;
-function cutAway(keypoint: Keypoint): boolean {
-  const stage = current.stage;
-  if (!stage) return false;
-  const at = keypoint.position;
-  return !stage.miniature.clip.keeps(at[0], at[1], at[2] - stage.eyeHeightM + 0.1);
+/** As `Clip.keeps`, by the keypoint's foot; numbers that are handed over would be put on the heap, for each keypoint in each frame. */
+function cutAway({ position }: Keypoint): boolean {
+  const { normal, constant } = cut.plane;
+  return normal.x * position[0] + normal.y * position[1] + normal.z * (position[2] - cut.lowerM) + constant < 0;
 }

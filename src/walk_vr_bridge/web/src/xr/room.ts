@@ -183,7 +183,8 @@ export class XrRoom implements HandlerWorld {
   }
 
   private carryMiniature(): void {
-    const [left, right] = this.handlers;
+    const left = this.handlers[0];
+    const right = this.handlers[1];
     const carriers = (left.doing === "carry" ? 1 : 0) + (right.doing === "carry" ? 2 : 0);
     const { group } = this.stage.miniature;
     if (carriers !== this.carriers) this.takeMiniature(carriers);
@@ -208,7 +209,8 @@ export class XrRoom implements HandlerWorld {
     this.stage.miniature.clampScale(this.startScale * factor) / this.startScale;
 
   private showHands(): void {
-    const [left, right] = this.handlers;
+    const left = this.handlers[0];
+    const right = this.handlers[1];
     this.stage.hover = left.held.id ?? right.held.id ?? right.pick.id ?? left.pick.id;
     this.knobs.hover = right.knob ?? left.knob;
     for (let i = 0; i < 2; i++) {
