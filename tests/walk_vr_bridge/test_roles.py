@@ -2,7 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a client may do once it is in: viewers nothing, editors what is on the list, nobody in another's name."""
 
+from types import SimpleNamespace
+
 from bridge_server import receive, serving
+
+from walk_vr_bridge.allowed import Allowed
+from walk_vr_bridge.client import Client
+from walk_vr_bridge.hub import Hub
+from walk_vr_bridge.wire.message import Message
 
 
 def test_viewers_change_nothing(run, tmp_path):
@@ -96,3 +103,15 @@ def test_nobody_edits_in_another_name(run, tmp_path):
             assert msg.client_id.startswith("web-")
 
     run(scene())
+
+
+def test_who_edits_hears_before_those_who_look_on():
+    hub, heard = Hub(Allowed("walk")), []
+    for name in "abcdefgh":
+        client = Client(name, "editor")
+        client.edits = name in "ce"
+        client.listening["/walk/path"] = SimpleNamespace(offer=lambda message, name=name: heard.append(name))
+        hub.clients.add(client)
+    hub.publish(Message("/walk/path", "nav_msgs/Path", b""))
+    assert set(heard[:2]) == {"c", "e"}
+    assert sorted(heard) == list("abcdefgh")

@@ -31,6 +31,7 @@ class Client:
         too_many_errors: Whether it has said too much that is wrong.
         sending_since_s: When the frame on its way now was given to the transport; inf between frames.
         calls: How many of its service calls wait for their answers.
+        edits: Whether it has made an edit: it then waits for what the others look at.
     """
 
     def __init__(self, identity: str, role: str) -> None:
@@ -39,6 +40,7 @@ class Client:
         self.outbox = Outbox()
         self.intake = Intake()
         self.calls = 0
+        self.edits = False
         self.level = "warning"
         self.listening: dict[str, Listening] = {}
         self.fragments: dict[str, dict[int, str]] = {}

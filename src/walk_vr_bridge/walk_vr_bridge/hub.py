@@ -30,13 +30,13 @@ class Hub:
         self._last: dict[str, list[Message]] = {}
 
     def publish(self, message: Message) -> None:
-        """Keeps the message for those who come later, and offers it to those who listen."""
+        """Keeps the message for those who come later, and offers it to those who listen: who edits is first."""
         topic = message.topic
         if topic in self._own:
             return
         if topic in self._latched:
             self._keep(message)
-        for client in self.clients:
+        for client in sorted(self.clients, key=_looks_on):
             listening = client.listening.get(topic)
             if listening is not None:
                 listening.offer(message)
@@ -61,3 +61,7 @@ class Hub:
             message.topic == self._storeys and kept and header_stamp_ns(kept[-1].data) == header_stamp_ns(message.data)
         )
         self._last[message.topic] = [*kept, message] if same_map else [message]
+
+
+def _looks_on(client: Client) -> bool:
+    return not client.edits

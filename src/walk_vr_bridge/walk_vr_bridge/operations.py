@@ -159,6 +159,7 @@ class Operations:
         label_ns = label_of(msg)
         try:
             self._allowed.publishing(topic, type_name, client.role)
+            client.edits = True
             reason = self.desk.take(client, msg)
         except NotAllowedError as error:
             reason = str(error)
