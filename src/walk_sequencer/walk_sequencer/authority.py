@@ -18,7 +18,7 @@ from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal
 from walk_sequencer.keypoints import Keypoints
-from walk_sequencer.order import order_cost
+from walk_sequencer.order import order_cost, resolve_method
 from walk_sequencer.pipeline import plan_tour
 from walk_sequencer.reorder import reorder, saved_m
 from walk_sequencer.rules import FREE, conflict
@@ -55,13 +55,19 @@ class Answer:
 
 
 class Authority:
-    """The keypoints of one building. Every change that a method confirms is on disk when it returns."""
+    """The keypoints of one building. Every change that a method confirms is on disk when it returns.
+
+    Attributes:
+        planned: What is shown; None before the first plan.
+        order_by: The method that has found the order; "given" where a user or the journal has.
+    """
 
     def __init__(self, building: Building, journal: Journal) -> None:
         self._building = building
         self._journal = journal
         self._history = journal.replay()
         self.planned: Planned | None = None
+        self.order_by = "given"
 
     @property
     def keypoints(self) -> Keypoints:
@@ -97,6 +103,7 @@ class Authority:
         pinned = self.keypoints.locked | ({self.keypoints.start, self.keypoints.end} - {-1})
         if not self.keypoints.order or (anew and not pinned):
             found = self._settle(self._planned(self.keypoints, config, progress, anew=True))
+            self.order_by = found.tour.method
             self._take_shorter(offer, found)
         elif anew:
             planned = self._planned(self.keypoints, config, progress)
@@ -104,6 +111,7 @@ class Authority:
             by_row = _by_row(config, planned.keypoints)
             rows = reorder(planned.tour.lengths_m, planned.tour.order, self._pinned_rows(planned), by_row)
             self._record(order_entry(planned.keypoints.ids[k] for k in rows.tolist()))
+            self.order_by = resolve_method(config.method, len(rows))
         # Legs are planned in the direction of the rows, so the legs of a new order are planned once more along it:
         # what is shown is then, bit for bit, what a sequencer started again plans from the journal.
         return self._settle(self._planned(self.keypoints, config, progress))
@@ -124,6 +132,7 @@ class Authority:
             return Answer(reason=refused.reason, keypoint=wish.keypoint)
         self._record(entry)
         self._settle(planned)
+        self.order_by = "given"
         return Answer(reason="", keypoint=int(entry["id"]) if wish.kind == "insert" else wish.keypoint)
 
     def better_order_saves_m(self, config: SequencerConfig) -> float:

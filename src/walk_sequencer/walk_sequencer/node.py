@@ -138,7 +138,7 @@ class SequencerNode(WalkNode):
         sentence = f"{len(tour.order)} keypoints in {tour.length_m:.1f} m" + (f", {left} unreachable" if left else "")
         self.diagnostics.state("ready", sentence, level="ok" if len(tour.order) else "warn")
         edited = planned.keypoints.edited
-        self.diagnostics.note(solver_status=tour.method, revision_ns=self._view.revision_ns, edited=edited)
+        self.diagnostics.note(solver_status=authority.order_by, revision_ns=self._view.revision_ns, edited=edited)
 
     def _publish_legs(self, authority: Authority) -> None:
         if authority.planned is not None:
