@@ -48,6 +48,29 @@ def bent_leg(points, arc_m, a, b, window, shift):
 
 
 @numba.njit(cache=True, nogil=True)
+def bent_tour(points, arc_m, window, shift):
+    """Returns the vertices (k, 3) and the parameter (k,) of a tour with both legs beside a keypoint bent.
+
+    Args:
+        points: (L, 3) the tour.
+        arc_m: (L,) its parameter at each vertex.
+        window: Where the bend begins, is whole, and ends.
+        shift: (3,) of the keypoint.
+    """
+    low, here, high = window
+    before, after = np.searchsorted(arc_m, low), np.searchsorted(arc_m, high, side="right")
+    arcs, lines = arc_m[:before].copy(), points[:before].copy()
+    for a, b in ((low, here), (here, high)):
+        if b - a >= NO_LENGTH_M:
+            arc, bent = bent_leg(points, arc_m, a, b, window, shift)
+            arcs, lines = np.concatenate((arcs, arc)), np.concatenate((lines, bent))
+    arcs, lines = np.concatenate((arcs, arc_m[after:])), np.concatenate((lines, points[after:]))
+    rising = np.ones(len(arcs), np.bool_)
+    rising[1:] = np.diff(arcs) > NO_LENGTH_M
+    return lines[rising], arcs[rising]
+
+
+@numba.njit(cache=True, nogil=True)
 def bent_arcs(points, arc_m, old, here, spacing):
     """Returns the parameters of a window's points: the old ones, unless a leg has become much longer or shorter.
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 
 import numba
 import numpy as np
@@ -14,14 +15,14 @@ from walk_building.errors import ParameterError
 from walk_trajopt.config import TimingConfig
 from walk_trajopt.heading import Heading, gradient
 
-_TICK_S = 0.01
+_TICK_S = 0.02
 _APART = 3  # places of the grid between two rests, at least
 _CREEP_MPS = 0.05  # slowest speed in the tightest turn: a corner of a polyline is passed, not stopped at
 _BESIDE_M = 0.03  # on both sides of a turn on the spot
 _STEP_S = 0.1  # a turn on the spot may change the velocity by what the lateral limit allows in this time
 
 
-@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, slots=True)
 class Clock:
     """Arc length by time, on an even grid of times from 0 to the end; at rest at both ends."""
 
@@ -67,35 +68,58 @@ def clock_of(
 def _at_speed(
     heading: Heading, stops_m: NDArray[np.float64], dwell_s: NDArray[np.float64], config: TimingConfig, speed_mps: float
 ) -> Clock:
-    smoothing_s = 2.0 * config.max_acceleration_mps2 / config.max_jerk_mps3
-    turn_rate, lateral = config.max_turn_rate_radps, config.max_lateral_acceleration_mps2
-    limit = _limits(heading.arc_m, heading.yaw, heading.look, heading.bend, turn_rate, lateral, speed_mps)
-    limit = _widened(limit, heading.spacing_m, config.max_acceleration_mps2, 0.5 * smoothing_s)
-    at, rest_s = _rests(np.rint(stops_m / heading.spacing_m).astype(np.int64), dwell_s, len(limit))
-    limit[at] = limit[0] = limit[-1] = 0.0
-    _pass(limit, heading.spacing_m, config.max_acceleration_mps2)
+    # Of an even number of ticks, so that the average over it is in the middle; rather more than the jerk asks for.
+    half = max(math.ceil(config.max_acceleration_mps2 / config.max_jerk_mps3 / _TICK_S - 1e-9), 1)
+    limits = config.max_acceleration_mps2, config.max_lateral_acceleration_mps2, config.max_turn_rate_radps, speed_mps
+    directions = heading.yaw, heading.look, heading.bend
+    return Clock(*_profile(heading.arc_m, directions, (stops_m, dwell_s), limits, half))
+
+
+@numba.njit(cache=True, nogil=True)
+def _profile(arc_m, directions, stops, limits, half):
+    """Returns times, arc lengths, speeds and accelerations (k,) on an even grid of times.
+
+    Args:
+        arc_m: (g,) places of the grid.
+        directions: (g,), (g,), (g,) yaw, look and bend there.
+        stops: (D,), (D,) where to stand still, and how long.
+        limits: Of acceleration, of that to the side, of the turn rate, and of the speed.
+        half: Ticks of half the average that limits the jerk.
+    """
+    acceleration, lateral, turn_rate, speed = limits
+    spacing, smoothing = arc_m[1], 2 * half * _TICK_S
+    limit = _limits(arc_m, directions[0], directions[1], directions[2], turn_rate, lateral, speed)
+    limit = _widened(limit, spacing, acceleration, 0.5 * smoothing)
+    at, rest = _rests(stops[0], stops[1], spacing, len(limit))
+    limit[0] = limit[-1] = 0.0
     dwell = np.zeros(len(limit))
-    # The average eats as much of a rest as it lasts.
-    dwell[at] = rest_s + smoothing_s
-    arc, speed = _ticks(heading.arc_m, limit, dwell)
-    arc, speed, acceleration = _smoothed(arc, speed, max(round(0.5 * smoothing_s / _TICK_S), 1))
-    t_s = _TICK_S * np.arange(len(arc), dtype=np.float64)
-    return Clock(t_s=t_s, arc_m=arc, speed_mps=speed, acceleration_mps2=acceleration)
+    for k in range(len(at)):
+        limit[at[k]] = 0.0
+        # The average eats as much of a rest as it lasts.
+        dwell[at[k]] = rest[k] + smoothing
+    _pass(limit, spacing, acceleration)
+    arc, rate = _ticks(arc_m, limit, dwell)
+    arc, rate, change = _smoothed(arc, rate, half)
+    return _TICK_S * np.arange(len(arc)), arc, rate, change
 
 
-def _rests(
-    at: NDArray[np.int64], dwell_s: NDArray[np.float64], cells: int
-) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+@numba.njit(cache=True, nogil=True)
+def _rests(stops_m, dwell_s, spacing, cells):
     """Returns the grid places of the rests and their times, those too near to each other to walk between as one."""
-    rests: dict[int, float] = {}
-    last = -_APART
-    for place, dwell in zip(at.tolist(), dwell_s.tolist(), strict=True):
+    at, rest, count = np.empty(len(stops_m), np.int64), np.empty(len(stops_m)), 0
+    for k in range(len(stops_m)):
+        here = int(np.rint(stops_m[k] / spacing))
         # Both ends are rests of their own.
-        here = 0 if place < _APART else cells - 1 if place > cells - 1 - _APART else place
-        here = last if here - last < _APART else here
-        rests[here] = rests.get(here, 0.0) + dwell
-        last = here
-    return np.array(list(rests), dtype=np.int64), np.array(list(rests.values()), dtype=np.float64)
+        if here < _APART:
+            here = 0
+        elif here > cells - 1 - _APART:
+            here = cells - 1
+        if count > 0 and here - at[count - 1] < _APART:
+            rest[count - 1] += dwell_s[k]
+            continue
+        at[count], rest[count] = here, dwell_s[k]
+        count += 1
+    return at[:count], rest[:count]
 
 
 @numba.njit(cache=True, nogil=True)

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from walk_trajopt.polyline import interpolate
 
+_OFFSETS = 11  # places of a polyline that a rounded corner is the mean of
+
 
 @numba.njit(cache=True, nogil=True)
 def tangents(points, knots):
@@ -109,18 +111,26 @@ def _bend(p0, p1, d0, d1, chord):
     return bend
 
 
-def rounded(
-    arc_m: NDArray[np.float64], knots_m: NDArray[np.float64], points: NDArray[np.float64], radius_m: float
-) -> NDArray[np.float64]:
-    """Returns the mean of a polyline over `radius_m` to both sides of each arc length: its corners rounded.
+@numba.njit(cache=True, nogil=True)
+def rounded(arc_m, knots_m, points, radius_m):
+    """Returns the mean (n, 3) of a polyline over `radius_m` to both sides of each arc length: its corners rounded.
 
     Within `radius_m` of an end the mean is over less, so that the ends stay where they are.
+
+    Args:
+        arc_m: (n,) rising.
+        knots_m: (L,) the polyline's parameter at each vertex.
+        points: (L, 3) its vertices.
+        radius_m: How far the mean reaches.
     """
-    reach = np.minimum(radius_m, np.minimum(arc_m - knots_m[0], knots_m[-1] - arc_m))
-    # A window of parabolic weight: the mean is then a smooth function of the arc length.
-    offsets = np.linspace(-1.0, 1.0, 11)
-    weight = 1.0 - 0.96 * offsets**2
-    out = np.zeros((len(arc_m), points.shape[1]))
-    for offset, w in zip(offsets, weight / weight.sum(), strict=True):
-        out += w * interpolate(arc_m + offset * np.maximum(reach, 0.0), knots_m, points)
-    return out
+    reach = np.empty(len(arc_m))
+    for i in range(len(arc_m)):
+        reach[i] = max(min(radius_m, arc_m[i] - knots_m[0], knots_m[-1] - arc_m[i]), 0.0)
+    out, total = np.zeros((len(arc_m), 3)), 0.0
+    for k in range(_OFFSETS):
+        offset = 2.0 * k / (_OFFSETS - 1) - 1.0
+        # A window of parabolic weight: the mean is then a smooth function of the arc length.
+        weight = 1.0 - 0.96 * offset * offset
+        out += weight * interpolate(arc_m + offset * reach, knots_m, points)
+        total += weight
+    return out / total

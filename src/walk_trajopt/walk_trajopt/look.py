@@ -15,8 +15,8 @@ from walk_trajopt.polyline import interpolate
 from walk_trajopt.smoothing import box
 
 _ARM_M = 0.5  # a target nearer than this is not turned to
-_STANDING_TICKS = 20  # a rest shorter than this is walking
-_EVERY = 4  # ticks from one look at a target to the next, 0.04 s
+_STANDING_TICKS = 10  # a rest shorter than this is walking
+_EVERY = 2  # ticks from one look at a target to the next, 0.04 s
 
 
 def look_angles(

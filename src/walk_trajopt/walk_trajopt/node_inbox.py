@@ -38,6 +38,7 @@ class Plan:
     marks: KeypointMarks
     polyline: NDArray[np.float64]
     chosen: NDArray[np.float64]  # (M, 3) points to look at, nan rows for none
+    ahead: NDArray[np.float64]  # (M, 3) from each keypoint to what lies ahead of it
 
     @property
     def revision(self) -> Revision:
@@ -58,7 +59,7 @@ class Plan:
             keypoints: (M, 3) where they are now [m].
             timing: What holds where no mark says anything else.
         """
-        targets = look_targets(keypoints, self.keypoints.quat_xyzw, self.chosen)
+        targets = np.where(np.isfinite(self.chosen), self.chosen, keypoints + self.ahead)
         dwell_s = [self.marks.dwell_s.get(i, timing.dwell_s) for i in self.ids] if self.marks.dwell_s else None
         return time_path(path, timing, look_at=targets, dwell_s=dwell_s)
 
@@ -110,6 +111,7 @@ class Inbox:
                 ids=markers.ids,
                 marks=self.marks,
                 polyline=tour.positions,
+                ahead=look_targets(np.zeros_like(keypoints.positions), keypoints.quat_xyzw),
                 chosen=np.array([self.marks.look_at.get(i, NOWHERE) for i in markers.ids]).reshape(-1, 3),
             )
         return self._plan

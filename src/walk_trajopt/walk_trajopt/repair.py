@@ -13,13 +13,11 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_trajopt.blending import blended
 from walk_trajopt.check import PathCheck, colliding_runs
-from walk_trajopt.curve import rounded
-from walk_trajopt.polyline import Polyline, interpolate
+from walk_trajopt.polyline import Polyline
 
 _GAP_M = 0.5  # colliding stretches closer than a step are mended as one
-_STEP_M = 0.1  # spacing of the points of a mended stretch
-_SHIFT_M = 1.5  # farthest that the optimiser moves a point along the tour
 _SAME_M = 2e-6  # arc lengths are rounded to micrometres, so that no two points are nearly one
 _RAMPS_M = (0.5, 1.0, 2.0, 4.0, 8.0)  # over which a stretch goes over into its neighbours
 
@@ -143,43 +141,8 @@ def _piece(
     attempt: _Attempt,
 ) -> Way:
     """Returns the stretch, drawn towards the tour over its core and going over into the way on both sides."""
-    low, high = max(core_m[0] - ramp_m, 0.0), min(core_m[1] + ramp_m, tour.length_m)
-    grid = np.linspace(low, high, int(np.ceil((high - low) / _STEP_M)) + 1)
-    beside = _beside(interpolate(grid, way.tour_m, way.points), grid, tour)
     keep_m, pins = keep
-    # The tour's own vertices must be among the points, or corners would be cut.
-    vertices = np.interp(tour.arc_m[(tour.arc_m > beside[0]) & (tour.arc_m < beside[-1])], beside, grid)
-    marks = np.concatenate([grid, vertices, way.tour_m, keep_m])
-    arc = np.unique(np.round(marks[(marks >= low) & (marks <= high)], 6))
-    # The ends of the tour are ends of the way: there is nothing to go over into.
-    rise = (arc - low) / max(core_m[0] - low, 1e-9) if low > 0.0 else np.ones(len(arc))
-    fall = (high - arc) / max(high - core_m[1], 1e-9) if high < tour.length_m else np.ones(len(arc))
-    u = np.clip(np.minimum(rise, fall), 0.0, 1.0)
-    share = attempt.share * (u * u * (3.0 - 2.0 * u))[:, None]
-    along = np.interp(arc, grid, beside)
-    target = rounded(along, tour.arc_m, tour.points, attempt.radius_m) if attempt.radius_m > 0.0 else tour.at(along)
-    own = interpolate(arc, way.tour_m, way.points)
-    points = (1.0 - share) * own + share * target
-    inside = (pins.tour_m >= low) & (pins.tour_m <= high)
-    points[np.abs(arc[:, None] - pins.tour_m[inside]).argmin(axis=0)] = pins.points[inside]
+    line, pinned = (way.points, way.tour_m), (pins.points, pins.tour_m)
+    amount = attempt.share, attempt.radius_m
+    points, arc = blended(line, (tour.points, tour.arc_m), keep_m, pinned, core_m, float(ramp_m), amount)
     return Way(points=points, tour_m=arc)
-
-
-def _beside(points: NDArray[np.float64], arc_m: NDArray[np.float64], tour: Polyline) -> NDArray[np.float64]:
-    """Returns the arc lengths (m,), strictly rising, at which the tour is beside the points of the way.
-
-    The optimiser moves points along the tour, too; a blend of places that are not beside each other would lead
-    through walls.
-    """
-    shifts = np.linspace(-_SHIFT_M, _SHIFT_M, 61)
-    candidates = np.clip(arc_m[:, None] + shifts, 0.0, tour.length_m)
-    places = tour.at(candidates.ravel()).reshape(len(arc_m), -1, 3)
-    square = ((places - points[:, None, :]) ** 2).sum(axis=2) + 0.01 * shifts**2
-    nearest = candidates[np.arange(len(arc_m)), square.argmin(axis=1)]
-    if arc_m[0] <= 0.0:
-        nearest[0] = 0.0
-    if arc_m[-1] >= tour.length_m:
-        nearest[-1] = tour.length_m
-    rising = 0.5 * (np.maximum.accumulate(nearest) + np.minimum.accumulate(nearest[::-1])[::-1])
-    # Where the way turns back before the tour does, many points share a place: a hair apart they stay in order.
-    return np.asarray(rising + 1e-6 * (arc_m - arc_m[0]) / max(arc_m[-1] - arc_m[0], 1e-9))

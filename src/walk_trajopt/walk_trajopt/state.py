@@ -9,7 +9,7 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.bending import NO_LENGTH_M, bent_arcs, bent_leg, bent_points
+from walk_trajopt.bending import NO_LENGTH_M, bent_arcs, bent_leg, bent_points, bent_tour
 from walk_trajopt.curve import refine
 from walk_trajopt.polyline import Polyline
 from walk_trajopt.repair import Mended, Way
@@ -171,6 +171,8 @@ def bent(
 def _bent_tour(state: State, window: tuple[float, float, float], shift: NDArray[np.float64], legs: Legs) -> Polyline:
     low, here, high = window
     tour = state.tour
+    if all(leg is None for leg in legs):
+        return Polyline(*bent_tour(tour.points, tour.arc_m, window, shift))
     before, after = tour.arc_m.searchsorted(low), tour.arc_m.searchsorted(high, side="right")
     pieces = [(tour.arc_m[:before], tour.points[:before])]
     for leg, (a, b) in zip(legs, ((low, here), (here, high)), strict=True):
