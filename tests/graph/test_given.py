@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from graph.processes import settled
+from graph.processes import EditKind, settled
 
 from walk_bringup.cli.up import keypoint_params
 from walk_building.walker import Walker
@@ -17,15 +17,19 @@ MINE = np.array([[10.0, 2.0, EYE_M], [2.0, 1.5, EYE_M], [6.0, 3.0, EYE_M], [6.0,
 
 
 @pytest.fixture(scope="module")
-def parameter(tmp_path_factory):
-    """The parameter that stands for the file, without its node."""
+def parameters(tmp_path_factory):
+    """By node, what stands for the file."""
     file = tmp_path_factory.mktemp("mine") / "mine.csv"
     rows = [f"{x},{y},{z},{'180' if k == 0 else ''}" for k, (x, y, z) in enumerate(MINE)]
     file.write_text("x,y,z,yaw_deg\n" + "\n".join(rows) + "\n30,2,1.6,\n")
-    (given,) = keypoint_params(file)
-    node, _, parameter = given.partition(".")
-    assert node == "importance"
-    return parameter.replace("=", ":=", 1)
+    split = (given.partition(".") for given in keypoint_params(file))
+    return {node: parameter.replace("=", ":=", 1) for node, _, parameter in split}
+
+
+@pytest.fixture(scope="module")
+def parameter(parameters):
+    """What stands for it at the importance node."""
+    return parameters["importance"]
 
 
 def test_the_users_keypoints_stand_in_place_of_suggested_ones(graph, observer, parameter):
@@ -42,6 +46,29 @@ def test_the_users_keypoints_stand_in_place_of_suggested_ones(graph, observer, p
     np.testing.assert_allclose(np.abs(asked.quat_xyzw[0]), [0.0, 0.0, 1.0, 0.0], atol=1e-6)
     assert not np.allclose(np.abs(asked.quat_xyzw[0]), np.abs(asked.quat_xyzw[1]), atol=1e-3)
     assert np.linalg.norm(MINE[:, None] - path[None], axis=2).min(axis=1).max() < 0.6
+
+
+def test_the_file_begins_a_session_also_where_an_earlier_one_has_edited(graph, observer, parameters):
+    keypoints = c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
+    moved = keypoints.poses.positions[1] + [0.2, 0.1, 0.0]
+    for kind in (EditKind.GRAB, EditKind.DRAG, EditKind.RELEASE):
+        answer = observer.edit(kind, keypoints.ids[1], moved)()
+    assert answer.outcome is c.Outcome.ACCEPTED, answer.reason
+
+    def again(*arguments):
+        """Starts the sequencer again; returns how far the nearest keypoint is from each of the file's [m]."""
+        graph.kill("sequencer")
+        heard = len(observer.heard["keypoints"])
+        graph.start("sequencer", *arguments)
+        observer.after("keypoints", heard, "the keypoints")
+        settled(observer)
+        shown = c.keypoints_from_msg(observer.last("keypoints")).positions
+        return np.linalg.norm(MINE[:, None] - shown[None], axis=2).min(axis=1)
+
+    assert again().max() > 0.1
+    assert "edited in an earlier session are back" in graph.log("sequencer")
+    assert again(parameters["sequencer"]).max() < 1e-3
+    assert "put aside" in graph.log("sequencer")
 
 
 def test_the_next_start_without_the_file_has_suggested_ones_again(graph, observer, parameter):

@@ -14,6 +14,7 @@ import trimesh
 from scenes import ramp
 
 from walk_plan.compare.comparison import Comparison, compare, figures
+from walk_plan.compare.page import write_page
 from walk_plan.compare.slope import NO_HEIGHT, NO_SLOPE, SlopeComparison, compare_on_slope
 from walk_plan.compare.variants import ALL, sharp_turns
 from walk_plan.options import plan_config
@@ -65,6 +66,12 @@ def test_what_has_no_weight_is_not_left_out(walkthrough: Walkthrough) -> None:
     made = compare(without)
     assert {variant.name for variant in made.variants} == {ALL, *OBJECTIVES} - {"height", "length"}
     assert made.slope == NO_HEIGHT
+
+
+def test_an_objective_added_since_is_on_the_page_by_its_own_name(comparison: Comparison, tmp_path: Path) -> None:
+    added = dataclasses.replace(comparison.variants[-1], name="level_gaze")
+    write_page(tmp_path / "compare.html", dataclasses.replace(comparison, variants=(*comparison.variants, added)))
+    assert "Level gaze" in (tmp_path / "compare.html").read_text()
 
 
 def test_a_flat_building_has_no_slope_and_says_so(comparison: Comparison) -> None:

@@ -121,9 +121,11 @@ def test_a_folder_that_cannot_be_written_is_said_so(tmp_path):
 def test_a_journal_put_aside_is_kept(journal):
     three(journal)
     before = journal.path.read_bytes()
-    journal.put_aside()
+    aside = journal.put_aside()
     assert same(journal.replay().present, Keypoints())
-    assert journal.path.with_suffix(".old").read_bytes() == before
+    assert aside is not None and aside.read_bytes() == before
+    assert journal.put_aside() is None, "there is nothing to put aside"
+    assert aside.read_bytes() == before
 
 
 def test_the_state_folder_follows_the_xdg_specification(monkeypatch, tmp_path):

@@ -77,11 +77,11 @@ class Journal:
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 
-    def put_aside(self) -> None:
-        """Renames the journal to `.old`, so that the next start begins without it."""
+    def put_aside(self) -> Path | None:
+        """Renames the journal to `.old`, so that the next start begins without it; returns that, or None for none."""
+        aside = self.path.with_suffix(".old")
         try:
-            if self.path.exists():
-                self.path.replace(self.path.with_suffix(".old"))
+            return self.path.replace(aside) if self.path.exists() else None
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 

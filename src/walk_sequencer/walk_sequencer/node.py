@@ -95,9 +95,15 @@ class SequencerNode(WalkNode):
 
     def _open(self, building: Building) -> Authority:
         journal = Journal(Path(str(self.get_parameter("state_dir").value)), building.hash)
-        if not self._editing().restore:
-            journal.put_aside()
+        aside = None if self._editing().restore else journal.put_aside()
+        if aside is not None:
+            self.get_logger().info(f"the keypoints of an earlier session are put aside, in {aside}")
         self._authority = Authority(building, journal)
+        if self._authority.keypoints.edited:
+            count, again = len(self._authority.keypoints.ids), "editing.restore false begins without"
+            self.get_logger().info(
+                f"{count} keypoints edited in an earlier session are back, from {journal.path}; {again}"
+            )
         self._rules = EditRules()
         return self._authority
 

@@ -163,11 +163,14 @@ def refuse_unusable(building: Path, configs: Iterable[Mapping[str, Config]]) -> 
 
 
 def keypoint_params(file: Path | None) -> tuple[str, ...]:
-    """Returns what the user's keypoints mean as a parameter; raises WalkError where the file says something else."""
+    """Returns what the user's keypoints mean as parameters; raises WalkError where the file says something else.
+
+    They begin a session: those that an earlier one has edited are put aside.
+    """
     if file is None:
         return ()
     read_keypoints(file)
-    return (f"importance.keypoints_file={file.resolve()}",)
+    return (f"importance.keypoints_file={file.resolve()}", "sequencer.editing.restore=false")
 
 
 def refuse_taken_port(port: int) -> None:

@@ -44,6 +44,11 @@ _COLUMNS: tuple[tuple[str, str, str, Callable[[Variant], str]], ...] = (
 )  # fmt: skip
 
 
+def _what(name: str) -> tuple[str, str]:
+    """Returns what an objective is called on the page and what it asks for; one added since has its own name only."""
+    return _WHAT.get(name, (name.replace("_", " ").capitalize(), ""))
+
+
 def write_page(path: Path, comparison: Comparison) -> None:
     """Writes compare.html, pictures inside."""
     path.write_text(environment().get_template("compare.html.j2").render(context(comparison)), encoding="utf-8")
@@ -68,7 +73,7 @@ def context(comparison: Comparison) -> dict[str, Any]:
         "beyond": "" if walked == len(storeys) else f"Drawn are the {len(storeys)} of {walked} levels most walked on.",
         "columns": [(name, meaning) for name, meaning, _, _ in _COLUMNS],
         "variants": [
-            (*_WHAT[variant.name], [(show(variant), key == variant.name) for _, _, key, show in _COLUMNS])
+            (*_what(variant.name), [(show(variant), key == variant.name) for _, _, key, show in _COLUMNS])
             for variant in comparison.variants
         ],
         "slope": slope if isinstance(slope, str) else picture(draw_slope(slope), "", "Side view of the slope"),
@@ -91,10 +96,10 @@ def shown_storeys(comparison: Comparison) -> tuple[list[int], int]:
 
 def objective_figures(comparison: Comparison) -> list[Figure]:
     """Returns the small plans of the walks without an objective, one picture for each storey that is shown."""
-    titles = {name: f"Without {name if name != 'keypoints' else 'viewpoints'}" for name in _WHAT} | {
-        ALL: "All objectives"
-    }
-    panels = [(titles[variant.name], _variant_note(variant), variant.points) for variant in comparison.variants]
+    panels = []
+    for variant in comparison.variants:
+        title = "All objectives" if variant.name == ALL else f"Without {_what(variant.name)[0].lower()}"
+        panels.append((title, _variant_note(variant), variant.points))
     return _drawn(comparison, panels)
 
 
