@@ -21,6 +21,7 @@ import click
 _COLOURS = ("cyan", "green", "magenta", "yellow", "blue")
 _PR_SET_PDEATHSIG = 1
 _GRACE_S = 8.0  # a node's worker may need 3 s to end, and the others run beside it on few cores
+_LOOK_S = 0.1  # between two looks at whether a child has ended, or the end is asked for
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +49,8 @@ class Supervisor:
         self._running: dict[str, subprocess.Popen[str]] = {}
         self._readers: list[threading.Thread] = []
         self._lock = threading.Lock()
-        self._stop = threading.Event()
+        # Not an Event: its lock, held by the thread that waits, is what a handler in that same thread would wait for.
+        self._told_to_end = False
         self.failed: list[str] = []
 
     def start(self) -> None:
@@ -78,7 +80,8 @@ class Supervisor:
 
     def wait(self) -> None:
         """Waits until all children have ended or the end is asked for, then ends what is left."""
-        while self._running and not self._stop.wait(0.1):
+        while self._running and not self._told_to_end:
+            time.sleep(_LOOK_S)
             for name, process in list(self._running.items()):
                 if process.poll() is not None:
                     del self._running[name]
@@ -115,7 +118,7 @@ class Supervisor:
 
     def _on_signal(self, number: int, frame: FrameType | None) -> None:
         del number, frame
-        self._stop.set()
+        self._told_to_end = True
 
 
 def _wait_for(processes: list[subprocess.Popen[str]], seconds: float) -> None:
