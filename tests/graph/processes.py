@@ -189,9 +189,9 @@ def settled(observer):
     """Waits until the path belongs to the newest tour; returns it."""
 
     def condition():
-        tour = observer.last("tour")
+        tour, path = observer.last("tour"), observer.last("path")
         told = observer.state("trajopt").get("tour_revision_ns")
-        return tour is not None and told == str(tour_from_msg(tour).stamp_ns)
+        return tour is not None and path is not None and told == str(tour_from_msg(tour).stamp_ns)
 
     observer.wait(condition, "a path through the newest tour")
     return path_from_msg(observer.last("path"))

@@ -36,6 +36,7 @@ def test_the_users_keypoints_stand_in_place_of_suggested_ones(graph, observer, p
     graph.start("importance", parameter)
     graph.start("sequencer")
     graph.start("trajopt")
+    observer.wait_for_all()
     path = settled(observer).positions
     shown = c.keypoints_from_msg(observer.last("keypoints"))
     near = np.linalg.norm(MINE[:, None] - shown.positions[None], axis=2)

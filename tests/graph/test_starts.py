@@ -22,7 +22,7 @@ def test_started_one_after_the_other_is_heard_has_input(graph, observer):
     graph.start("sequencer")
     observer.wait(lambda: observer.last("tour"), "a tour")
     graph.start("trajopt")
-    observer.wait(lambda: observer.last("trajectory"), "a trajectory")
+    observer.wait(lambda: observer.last("trajectory") and observer.last("path"), "a trajectory and its path")
     assert len(c.path_from_msg(observer.last("path")).positions) > 10
 
 

@@ -59,14 +59,14 @@ class Desk:
         self.click(f'[data-tab="{tab}"]')
 
     def click(self, selector):
+        """Clicks what is on the page, once it is there."""
+        self.page.until(f"document.querySelector({json.dumps(selector)})", selector)
         x, y = self.page.js(f"return desk.middle({json.dumps(selector)})")
         self.page.mouse(["click", x, y])
 
     def press(self, widget):
-        """Clicks a widget of the panel once it is there."""
-        selector = f'.panel [data-id="{widget}"]'
-        self.page.until(f"document.querySelector({json.dumps(selector)})", widget)
-        self.click(selector)
+        """Clicks a widget of the panel."""
+        self.click(f'.panel [data-id="{widget}"]')
 
     def ids(self):
         return self.page.js("return desk.state.keypoints.map(({ id }) => id)")

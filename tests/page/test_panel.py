@@ -116,6 +116,7 @@ def test_the_optimiser_is_switched_off_and_on(desk):
 
 
 def test_order_kept_or_optimised(desk):
+    desk.open("tour")
     for method in ("given", "auto"):
         desk.click(f'[data-id="order"] [data-value="{method}"]')
         desk.page.until(f"{PARAMETER.format('sequencer.method')} === '{method}'", method)

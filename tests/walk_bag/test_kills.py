@@ -19,7 +19,7 @@ from walk_bag import BagError, BagTopic, BagWriter, read_bag, recover_bag
 from walk_bag.mcap_file import MAGIC
 from walk_bag.recover import main as recover
 from walk_bag.spool import Spool
-from walk_bag.storage import read_span, read_topics, unfinished_file
+from walk_bag.storage import cut_off_note, read_span, read_topics, unfinished_file
 
 TOUR = BagTopic(name="/walk/tour", type_name="nav_msgs/msg/Path", latched=True, reliable=True, depth=1)
 EDITS = BagTopic(
@@ -104,9 +104,11 @@ def test_a_recovered_bag_is_whole(tmp_path, whole, capsys):
     data = whole.read_bytes()
     (tmp_path / "cut.mcap").write_bytes(data[: len(data) // 2])
     assert unfinished_file(tmp_path / "cut.mcap") is not None
+    assert "cut.mcap was cut off" in cut_off_note(tmp_path / "cut.mcap")
     assert recover(["recover", str(tmp_path / "cut.mcap")]) == 0
     out = tmp_path / "cut-recovered.mcap"
     assert unfinished_file(out) is None
+    assert cut_off_note(out) == ""
     assert _sound(out) > 0
     assert read_topics(out) == (TOUR, EDITS)
     assert f"{_sound(out)} messages recovered" in capsys.readouterr().out

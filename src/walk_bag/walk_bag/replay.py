@@ -17,7 +17,7 @@ from std_srvs.srv import SetBool
 from walk_bag import parameter_watch
 from walk_bag.errors import BagError
 from walk_bag.pace import Pace
-from walk_bag.storage import read_topics
+from walk_bag.storage import cut_off_note, read_topics
 from walk_bag.timeline import Timeline
 from walk_bag.topics import BagMessage, BagTopic
 from walk_ros.errors import ArgumentError
@@ -206,6 +206,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BagError as error:
         sys.stderr.write(f"walk: {error}\n")
         return 2
+    if note := cut_off_note(options.bag):
+        sys.stderr.write(f"walk: {note}\n")
     return run_node(lambda: Replayer(options, timeline), argv)
 
 

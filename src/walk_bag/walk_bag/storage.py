@@ -210,6 +210,13 @@ def unfinished_file(path: Path) -> Path | None:
     return broken[0] if broken else None
 
 
+def cut_off_note(path: Path) -> str:
+    """Returns the sentence that says of a bag that its recording was cut off, "" for a whole one."""
+    if unfinished_file(path) is None:
+        return ""
+    return f"the recording {path} was cut off: what stands before that is taken; ./walk recover makes a whole bag of it"
+
+
 def _mcap_files(path: Path) -> list[Path]:
     """Returns the MCAP files of a bag in the order in which they were written: NAME_2.mcap before NAME_10.mcap."""
     return [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))

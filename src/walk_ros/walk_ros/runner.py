@@ -9,12 +9,12 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
@@ -37,11 +37,16 @@ def run_node(factory: Callable[[], Node], args: Sequence[str] | None = None) -> 
     code = EXIT_OK
     try:
         _step_back(getattr(factory, "niceness", 0))
-        _start_middleware(args)
-        node = _make(factory)
-        _spin(node)
+        with _signals_held():
+            _start_middleware(args)
+            node = _make(factory)
+            executor = SingleThreadedExecutor()
+        rclpy.spin(node, executor)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except RuntimeError:  # of the layers below, where the end comes between two looks at the context
+        if rclpy.ok():
+            raise
     except WalkError as error:
         sys.stderr.write(f"{error}\n")
         code = EXIT_USER
@@ -76,20 +81,25 @@ def _step_back(niceness: int) -> None:
         os.nice(max(niceness - os.nice(0), 0))
 
 
+@contextlib.contextmanager
+def _signals_held() -> Iterator[None]:
+    """Lets SIGINT and SIGTERM wait: the middleware ends at once, and a node half made in it fails in many ways."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _start_middleware(args: Sequence[str] | None) -> None:
     use_profiles()
     try:
         rclpy.init(args=list(args) if args is not None else None)
     except RuntimeError as error:  # what every error of the layers below is
         raise ArgumentError(str(error).strip()) from error
-
-
-def _spin(node: Node) -> None:
-    try:
-        rclpy.spin(node)
-    except RuntimeError:  # of the layers below, where the end comes between two looks at the context
-        if node.context.ok():
-            raise
 
 
 def _make(factory: Callable[[], Node]) -> Node:

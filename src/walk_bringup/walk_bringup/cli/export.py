@@ -21,6 +21,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 from walk_bag.exports import EXPORTERS, export_ride
 from walk_bag.exports.ride import ExportConfig, Ride
 from walk_bag.imports import SOURCES, RecordedBuilding, load_ride, recorded_building
+from walk_bag.storage import cut_off_note
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.cli.units import UnitOfLength
 from walk_building.loaders import load_model
@@ -67,6 +68,7 @@ def export(
     config = ExportConfig(**{key: value for key, value in values.items() if value is not None})
     ride = load_ride(bag, source)
     ride, notes = _placed(ride, bag, building, LoadOptions(units_m=units, up=up), EXPORTERS[name].shows_building)
+    notes += filter(None, [cut_off_note(bag)])
     path = out or bag.with_name(f"{bag.name.removesuffix('.mcap')}-{name}{EXPORTERS[name].suffix}")
     with _shown_progress(quiet) as progress:
         export_ride(ride, name, path, config, progress)
