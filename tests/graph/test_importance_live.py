@@ -27,7 +27,7 @@ def running(graph, observer):
 def at_rest(observer):
     """Whether the node is done and all that it has published is heard: a big map may come behind the diagnostics."""
     state, heard = observer.state("importance"), [observer.last(topic) for topic in MAP_TOPICS]
-    if state.get("state") != "ready" or None in heard:
+    if state.get("state") != "ready" or "map_revision_ns" not in state or None in heard:
         return False
     return {stamp_from_msg(msg.header.stamp) for msg in heard} == {int(state["map_revision_ns"])}
 
