@@ -17,6 +17,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.subscription import Subscription
 
 from walk_building.config import Config
 from walk_building.errors import BuildingError, WalkError
@@ -118,8 +119,8 @@ class WalkNode(Node):
             topic: Its name.
             store: Called with each message.
             then: Called once all messages that wait have been stored: the latest of them counts.
-            raw: Hand the messages over as bytes.
-            aside: Hear it in a thread of its own, which has nothing else to look through: for what is answered at once.
+            raw: As `hear` has it.
+            aside: As `hear` has it.
         """
 
         def callback(msg: Any) -> None:
@@ -129,12 +130,24 @@ class WalkNode(Node):
                     self._stored(topic, store, more)
                 then()
 
+        subscription = self.hear(topic, callback, raw=raw, aside=aside)
+
+    def hear(
+        self, topic: str, callback: Callable[[Any], None], *, raw: bool = False, aside: bool = False
+    ) -> Subscription:
+        """Subscribes to a topic of the table.
+
+        Args:
+            topic: Its name.
+            callback: Called with each message.
+            raw: Hand the messages over as bytes.
+            aside: Hear it in a thread of its own, which has nothing else to look through: for what is answered at once.
+        """
         kind, qos = TOPICS[topic].type, TOPICS[topic].qos
-        if aside:
-            self._aside = self._aside or SideNode(self, "aside")
-            subscription = self._aside.hear(kind, topic, callback, qos, raw=raw)
-        else:
-            subscription = self.create_subscription(kind, topic, callback, qos, raw=raw)
+        if not aside:
+            return self.create_subscription(kind, topic, callback, qos, raw=raw)
+        self._aside = self._aside or SideNode(self, "aside")
+        return self._aside.hear(kind, topic, callback, qos, raw=raw)
 
     def _stored(self, topic: str, store: Callable[[Any], None], msg: Any) -> None:
         try:

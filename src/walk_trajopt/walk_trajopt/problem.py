@@ -111,9 +111,8 @@ class Problem:
 
     def _has_matrices_of(self, other: Problem) -> bool:
         """Whether the sum of the matrices is the same, which is told by their identity."""
-        pairs = list(zip(self._quadratic, other._quadratic, strict=False))
-        same = all(w == v and a.bands is b.bands for (w, a), (v, b) in pairs)
-        return same and len(self._quadratic) == len(other._quadratic) == len(pairs)
+        mine, others = ([(w, id(o.bands)) for w, o in one._quadratic] for one in (self, other))
+        return mine == others
 
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the cost at points `x` (n, 3) and its gradient (n, 3), which is zero at fixed points."""

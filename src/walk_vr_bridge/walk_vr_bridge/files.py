@@ -76,8 +76,8 @@ class Files:
         return None
 
     def _volume(self, revision: str | None) -> Content | Missing:
-        volumes, described = self._volumes, self._importance
-        if isinstance(described, Missing) or not volumes:
+        volumes = self._volumes
+        if not volumes:
             return Missing(status=503, reason="there is no importance map yet")
         if revision is None:
             return list(volumes.values())[-1]

@@ -8,11 +8,7 @@ import asyncio
 from collections.abc import Callable
 from typing import Any
 
-import rclpy
-from rclpy.qos import QoSProfile
-
 from walk_ros.node import WalkNode
-from walk_ros.topics import TOPICS
 from walk_vr_bridge.allowed import PUBLISHED, Allowed
 from walk_vr_bridge.limits import CALL_TIMEOUT_S
 from walk_vr_bridge.operations import OnAnswer
@@ -21,16 +17,11 @@ from walk_vr_bridge.wire.message import Message
 OnMessage = Callable[[Message], None]
 
 QUICK = ("path", "edit_results", "path_results")
-"""What an edit waits for. An executor looks through all of its node's topics, services and timers at every message, in
-Python: these are heard by a node of their own, which has little to look through."""
+"""What an edit waits for: heard in a thread of its own."""
 
 
 class Graph:
-    """Publishes and calls for clients. Publishing is safe from any thread; answers come in the loop's.
-
-    Attributes:
-        quick: The node, hidden from listings, that hears the topics of QUICK; it wants an executor of its own.
-    """
+    """Publishes and calls for clients. Publishing is safe from any thread; answers come in the loop's."""
 
     def __init__(self, node: WalkNode, allowed: Allowed, loop: asyncio.AbstractEventLoop) -> None:
         self._node = node
@@ -39,24 +30,16 @@ class Graph:
         self._callers: dict[str, Any] = {}
         node.offer(*PUBLISHED)
         self._publishers = {publisher.topic_name: publisher for publisher in node.publishers}
-        # Without the global arguments: they would give it this node's name.
-        self.quick = rclpy.create_node(
-            f"_{node.get_name()}_quick", namespace=node.get_namespace(), use_global_arguments=False,
-            enable_rosout=False, start_parameter_services=False,
-        )  # fmt: skip
 
     def listen(self, short: str, on_message: OnMessage) -> None:
         """Subscribes to a topic of the table; the callback runs in the thread of an executor."""
-        topic, full = TOPICS[short], self._allowed.full(short)
+        full = self._allowed.full(short)
         type_name = self._allowed.heard[full]
 
         def callback(data: bytes) -> None:
             on_message(Message(full, type_name, bytes(data)))
 
-        qos: QoSProfile = topic.qos
-        name = self._node.resolve_topic_name(short)
-        node = self.quick if short in QUICK else self._node
-        node.create_subscription(topic.type, name, callback, qos, raw=True)
+        self._node.hear(short, callback, raw=True, aside=short in QUICK)
 
     def publish(self, topic: str, msg: Any) -> None:
         """Publishes a message of a client."""

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import orjson
-from rclpy.node import Node
 from std_msgs.msg import String
 
 from walk_building.building import Building
@@ -72,11 +71,6 @@ class BridgeNode(WalkNode):
         self.start()
 
     @property
-    def quick(self) -> Node:
-        """The node beside this one that hears what an edit waits for."""
-        return self._graph.quick
-
-    @property
     def config(self) -> BridgeConfig:
         """The bridge's config as it is now."""
         return self.parameters.get("bridge", BridgeConfig)
@@ -119,11 +113,6 @@ class BridgeNode(WalkNode):
             self._stage.set_rate(self.config.viewpoint_hz)
             self.in_loop(self._on_config)
         return False
-
-    def destroy_node(self) -> None:
-        """Ends both nodes."""
-        self.quick.destroy_node()
-        super().destroy_node()
 
     def in_loop(self, what: Callable[..., object], *args: Any) -> None:
         """Calls something in the web server's thread."""

@@ -39,16 +39,13 @@ class Running:
         for number in (signal.SIGINT, signal.SIGTERM):
             self._loop.add_signal_handler(number, self._stop.set)
         self._node = _make_node(self._loop, self._changed.set)
-        self._executors = [SingleThreadedExecutor(), SingleThreadedExecutor()]
-        self._spinning = []
-        for executor, node in zip(self._executors, (self._node, self._node.quick), strict=True):
-            executor.add_node(node)
-            self._spinning.append(threading.Thread(target=_spin, args=(executor,), name="ROS", daemon=True))
+        self._executor = SingleThreadedExecutor()
+        self._executor.add_node(self._node)
+        self._spinning = threading.Thread(target=_spin, args=(self._executor,), name="ROS", daemon=True)
 
     async def run(self) -> None:
         """Serves until a signal comes; starts again where the config changes."""
-        for thread in self._spinning:
-            thread.start()
+        self._spinning.start()
         sweeper = asyncio.create_task(self._sweep())
         try:
             while not self._stop.is_set():
@@ -102,9 +99,8 @@ class Running:
             self._node.diagnostics.note(clients=len(site.hub.clients), dropped_frames=dropped)
 
     def _end(self) -> None:
-        for executor, thread in zip(self._executors, self._spinning, strict=True):
-            executor.shutdown(timeout_sec=2.0)
-            thread.join(2.0)
+        self._executor.shutdown(timeout_sec=2.0)
+        self._spinning.join(2.0)
         self._node.destroy_node()
         rclpy.try_shutdown()
 

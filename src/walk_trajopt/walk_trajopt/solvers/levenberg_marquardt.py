@@ -17,8 +17,8 @@ from walk_trajopt.problem import Problem
 from walk_trajopt.solvers.base import Solution
 from walk_trajopt.solvers.newton import Model, newton_step
 
-# In units of the problem's stiffness. The first holds steps to decimetres: as far as a model of
-# the nearest walls is worth anything.
+# In units of the problem's stiffness. The first holds steps to decimetres: as far as a model of the nearest walls is
+# worth anything.
 _FIRST_DAMPING = 0.01
 _LEAST_DAMPING = 1e-8
 _MOST_DAMPING = 1e4
