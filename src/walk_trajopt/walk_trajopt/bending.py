@@ -12,7 +12,7 @@ from walk_trajopt.polyline import interpolate
 FIRM = 10.0
 """How many times as much the clearance counts where the path collided without."""
 
-NO_LENGTH_M = 1e-9
+_NO_LENGTH_M = 1e-9
 """A leg no longer than this is none: the first keypoint has none before it, the last none behind."""
 
 _UNEVEN = 1.5  # a leg whose points are so much farther apart, or nearer, than the mean gets another number of them
@@ -20,7 +20,7 @@ _VERTEX_M = 0.25  # between the vertices of a bent leg, so that each can find it
 
 
 @numba.njit(cache=True, nogil=True)
-def bent_leg(points, arc_m, a, b, window, shift):
+def _bent_leg(points, arc_m, a, b, window, shift):
     """Returns arc lengths (k,) and vertices (k, 3) of a tour's leg from `a` to `b`, bent.
 
     Args:
@@ -48,25 +48,31 @@ def bent_leg(points, arc_m, a, b, window, shift):
 
 
 @numba.njit(cache=True, nogil=True)
-def bent_tour(points, arc_m, window, shift):
-    """Returns the vertices (k, 3) and the parameter (k,) of a tour with both legs beside a keypoint bent.
+def bent_tour(points, arc_m, window, shift, legs):
+    """Returns the vertices (k, 3) and the parameter (k,) of a tour with the legs beside a keypoint bent, or replaced.
 
     Args:
         points: (L, 3) the tour.
         arc_m: (L,) its parameter at each vertex.
         window: Where the bend begins, is whole, and ends.
         shift: (3,) of the keypoint.
+        legs: For the leg before and the one behind, the parameter (n,) and the vertices (n, 3) of what takes its
+            place; empty where it is bent.
     """
-    low, here, high = window
+    low, high = window[0], window[2]
     before, after = np.searchsorted(arc_m, low), np.searchsorted(arc_m, high, side="right")
     arcs, lines = arc_m[:before].copy(), points[:before].copy()
-    for a, b in ((low, here), (here, high)):
-        if b - a >= NO_LENGTH_M:
-            arc, bent = bent_leg(points, arc_m, a, b, window, shift)
-            arcs, lines = np.concatenate((arcs, arc)), np.concatenate((lines, bent))
+    for k in range(2):
+        a, b = window[k], window[k + 1]
+        if b - a < _NO_LENGTH_M:
+            continue
+        arc, line = legs[k]
+        if len(arc) == 0:
+            arc, line = _bent_leg(points, arc_m, a, b, window, shift)
+        arcs, lines = np.concatenate((arcs, arc)), np.concatenate((lines, line))
     arcs, lines = np.concatenate((arcs, arc_m[after:])), np.concatenate((lines, points[after:]))
     rising = np.ones(len(arcs), np.bool_)
-    rising[1:] = np.diff(arcs) > NO_LENGTH_M
+    rising[1:] = np.diff(arcs) > _NO_LENGTH_M
     return lines[rising], arcs[rising]
 
 
@@ -90,9 +96,9 @@ def bent_arcs(points, arc_m, old, here, spacing):
 
 @numba.njit(cache=True, nogil=True)
 def _side(points, arc_m, old, a, b, spacing):
-    if b - a < NO_LENGTH_M:
+    if b - a < _NO_LENGTH_M:
         return np.empty(0)
-    begin, end = np.searchsorted(old, a - NO_LENGTH_M), np.searchsorted(old, b + NO_LENGTH_M, side="right")
+    begin, end = np.searchsorted(old, a - _NO_LENGTH_M), np.searchsorted(old, b + _NO_LENGTH_M, side="right")
     low, high = np.searchsorted(arc_m, a, side="right"), np.searchsorted(arc_m, b)
     marks = np.empty(max(high - low, 0) + 2)
     marks[0], marks[-1] = a, b

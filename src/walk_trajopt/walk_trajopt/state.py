@@ -9,12 +9,13 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.bending import NO_LENGTH_M, bent_arcs, bent_leg, bent_points, bent_tour
+from walk_trajopt.bending import bent_arcs, bent_points, bent_tour
 from walk_trajopt.curve import refine
 from walk_trajopt.polyline import Polyline
 from walk_trajopt.repair import Mended, Way
 from walk_trajopt.resample import resample
 
+_NO_LEG = np.empty(0), np.empty((0, 3))
 _BESIDE = 2  # fixed points beside a window: as many as the widest difference reaches
 Legs = tuple[NDArray[np.float64] | None, NDArray[np.float64] | None]
 """Newly planned legs to and from a keypoint, (L, 3) each; None for one that is bent instead."""
@@ -170,20 +171,13 @@ def bent(
 
 def _bent_tour(state: State, window: tuple[float, float, float], shift: NDArray[np.float64], legs: Legs) -> Polyline:
     low, here, high = window
-    tour = state.tour
-    if all(leg is None for leg in legs):
-        return Polyline(*bent_tour(tour.points, tour.arc_m, window, shift))
-    before, after = tour.arc_m.searchsorted(low), tour.arc_m.searchsorted(high, side="right")
-    pieces = [(tour.arc_m[:before], tour.points[:before])]
-    for leg, (a, b) in zip(legs, ((low, here), (here, high)), strict=True):
-        if b - a < NO_LENGTH_M:
-            continue
-        if leg is None:
-            pieces.append(bent_leg(tour.points, tour.arc_m, a, b, window, shift))
-        else:
-            line = Polyline(leg)
-            pieces.append((a + (b - a) * line.arc_m / max(line.length_m, 1e-9), line.points))
-    pieces.append((tour.arc_m[after:], tour.points[after:]))
-    arc = np.concatenate([p[0] for p in pieces])
-    rising = np.concatenate([[True], np.diff(arc) > 1e-9])
-    return Polyline(np.concatenate([p[1] for p in pieces])[rising], arc[rising])
+    named = _named(legs[0], low, here), _named(legs[1], here, high)
+    return Polyline(*bent_tour(state.tour.points, state.tour.arc_m, window, shift, named))
+
+
+def _named(leg: NDArray[np.float64] | None, a: float, b: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Returns a planned leg with the tour's parameter at each vertex, from `a` to `b`; nothing for no leg."""
+    if leg is None:
+        return _NO_LEG
+    line = Polyline(leg)
+    return a + (b - a) * line.arc_m / max(line.length_m, 1e-9), line.points
