@@ -13,6 +13,7 @@ pytestmark = pytest.mark.ros
 
 FRAMES = int(os.environ.get("WALK_FRAMES", "4000"))
 WINDOWS = 16
+ROUNDS = 3
 MOST_GROWTH = 100_000
 """Bytes: ten a frame in the full run, less than the smallest object that a frame could keep takes with its place."""
 
@@ -53,13 +54,19 @@ def heap(page):
 def growth(page, frames):
     """How much more is left after the last frames than after the first ones [bytes].
 
-    What has not been collected yet only adds to a reading, so the least of six counts on either side.
+    What has not been collected yet only adds to a reading, so the least of six counts on either side. What is compiled
+    late, on a busy machine, is kept once; what every frame keeps is kept again: of up to three rounds the least counts.
     """
-    readings = [heap(page)]
-    for _ in range(WINDOWS):
-        page.js(f"await hands.frames({frames // WINDOWS})")
-        readings.append(heap(page))
-    return min(readings[-6:]) - min(readings[:6])
+    least = float("inf")
+    for _ in range(ROUNDS):
+        readings = [heap(page)]
+        for _ in range(WINDOWS):
+            page.js(f"await hands.frames({frames // WINDOWS})")
+            readings.append(heap(page))
+        least = min(least, min(readings[-6:]) - min(readings[:6]))
+        if least < MOST_GROWTH:
+            break
+    return least
 
 
 def test_the_heap_is_flat_over_many_frames(hurried):
