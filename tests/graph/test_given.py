@@ -21,7 +21,7 @@ def parameters(tmp_path_factory):
     """By node, what stands for the file."""
     file = tmp_path_factory.mktemp("mine") / "mine.csv"
     rows = [f"{x},{y},{z},{'180' if k == 0 else ''}" for k, (x, y, z) in enumerate(MINE)]
-    file.write_text("x,y,z,yaw_deg\n" + "\n".join(rows) + "\n30,2,1.6,\n")
+    file.write_text("x,y,z,yaw_deg\n" + "\n".join(rows) + "\n30,2,1.6,\n6,3.98,1.6,\n")
     split = (given.partition(".") for given in keypoint_params(file))
     return {node: parameter.replace("=", ":=", 1) for node, _, parameter in split}
 
@@ -41,19 +41,25 @@ def test_the_users_keypoints_stand_in_place_of_suggested_ones(graph, observer, p
     shown = c.keypoints_from_msg(observer.last("keypoints"))
     near = np.linalg.norm(MINE[:, None] - shown.positions[None], axis=2)
     assert near.min(axis=1).max() < 1e-3
-    assert all(len(c.keypoints_from_msg(msg).positions) == 5 for msg in observer.heard["suggested_keypoints"])
+    assert all(len(c.keypoints_from_msg(msg).positions) == 6 for msg in observer.heard["suggested_keypoints"])
     # The first says where it looks; the next, with walls behind it on three sides, looks where most is seen.
     asked = c.keypoints_from_msg(observer.last("suggested_keypoints"))
     np.testing.assert_allclose(np.abs(asked.quat_xyzw[0]), [0.0, 0.0, 1.0, 0.0], atol=1e-6)
     assert not np.allclose(np.abs(asked.quat_xyzw[0]), np.abs(asked.quat_xyzw[1]), atol=1e-3)
     assert np.linalg.norm(MINE[:, None] - path[None], axis=2).min(axis=1).max() < 0.6
+    assert "suggested keypoints 1 to 6 are those of mine.csv" in graph.log("importance")
+    told = [line for line in graph.log("sequencer").splitlines() if "suggested keypoint" in line]
+    assert len(told) == 2
+    assert "suggested keypoint 5 at (30.00, 2.00, 1.60) is left out: no floor to stand on within" in told[0]
+    assert "suggested keypoint 6 at (6.00, 3.98, 1.60) is moved by 0." in told[1]
 
 
 def test_the_file_begins_a_session_also_where_an_earlier_one_has_edited(graph, observer, parameters):
     keypoints = c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
-    moved = keypoints.poses.positions[1] + [0.2, 0.1, 0.0]
+    second = 1  # identity of the file's second keypoint, wherever the tour has it
+    moved = keypoints.poses.positions[keypoints.ids.index(second)] + [0.2, 0.1, 0.0]
     for kind in (EditKind.GRAB, EditKind.DRAG, EditKind.RELEASE):
-        answer = observer.edit(kind, keypoints.ids[1], moved)()
+        answer = observer.edit(kind, second, moved)()
     assert answer.outcome is c.Outcome.ACCEPTED, answer.reason
 
     def again(*arguments):

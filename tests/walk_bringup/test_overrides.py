@@ -151,7 +151,7 @@ def test_the_file_that_is_printed_is_taken(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("units", ["nan", "-1", "1e9"])
 def test_a_unit_that_cannot_be_is_refused_under_its_own_name(refused, units: str) -> None:
-    assert "units_m is" in (sentence := refused("--units", units)) and "--param" not in sentence
+    assert "--units is" in (sentence := refused("--units", units)) and "--param" not in sentence
 
 
 def test_a_file_without_a_unit_that_needs_one_is_refused_once(refused, tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ def test_what_is_no_unit_is_said_with_the_words(
 
 def test_a_length_below_nothing_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", "x.obj", "--out", str(tmp_path / "o"), "--units", "-1"]) == 2
-    assert "units_m is -1.0" in capsys.readouterr().err
+    assert "--units is -1.0" in capsys.readouterr().err
 
 
 def test_every_node_of_up_reads_the_file_alike() -> None:

@@ -83,7 +83,15 @@ def test_what_cannot_be_reached_is_left_out_with_its_name(rooms_file: Path, tmp_
     walk = make_walkthrough(rooms_file, PlanConfig(), StageClock(lambda stage, fraction: None), read_keypoints(file))
     assert len(walk.keypoints) == 2
     (note,) = (warning for warning in walk.warnings if "mine.csv" in warning)
-    assert note.startswith("keypoint 3 (garden) of mine.csv is left out: ")
+    assert note.startswith("keypoint 3 (garden) of mine.csv at (30.00, 2.00, 1.60) is left out: no floor")
+
+
+def test_what_is_in_a_wall_is_said_to_be_moved(rooms_file: Path, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(f"x,y,z\n1,2,{EYE}\n7,2,{EYE}\n7,0.02,{EYE}\n7,0.2,{EYE}\n")
+    walk = make_walkthrough(rooms_file, PlanConfig(), StageClock(lambda stage, fraction: None), read_keypoints(file))
+    (note,) = (warning for warning in walk.warnings if "mine.csv" in warning)
+    assert note.startswith("keypoint 3 of mine.csv at (7.00, 0.02, 1.60) is moved by 0."), note
 
 
 @pytest.mark.parametrize(
@@ -92,10 +100,14 @@ def test_what_cannot_be_reached_is_left_out_with_its_name(rooms_file: Path, tmp_
         (["--keypoints-file", "k.csv", "--keypoints", "3"], "--keypoints-file and --keypoints exclude each other"),
         (["--keypoints-file", "k.csv", "--camera-path", "b"], "--keypoints-file and --camera-path exclude"),
         (["--keypoints-file", "none.csv"], "none.csv: cannot be read: No such file"),
-        (["--keypoints-file", "k.csv"], "keypoint 1: position is ['1', '2', 'high']"),
+        (["--keypoints-file", "k.csv"], "k.csv: line 2: z is 'high'; expected a finite number"),
         (["--keypoints-file", "k.txt"], "keypoints are read from .csv and .json files and from bags"),
         (["--camera-path", "none.mcap"], "none.mcap: there is no such file"),
-        (["--keypoints-file", "one.json"], "needs at least two viewpoints that can be reached, and there is one"),
+        (["--keypoints-file", "one.json"], "walk: one.json: a walk needs at least two keypoints, and there is one"),
+        (["--keypoints-file", "far.csv"], "far.csv: a walk needs at least two keypoints that can be reached"),
+        (["--radius", "5"], "--radius is 5.0; expected a finite number from 0.05 to 1 m"),
+        (["--height", "1.5"], "--eye-height is 1.6; expected at most --height, 1.5 m"),
+        (["--start", "99"], "--start is 99; expected the index of one of"),
     ],
 )
 def test_what_cannot_be_used_is_one_sentence(
@@ -109,6 +121,7 @@ def test_what_cannot_be_used_is_one_sentence(
     monkeypatch.chdir(tmp_path)
     Path("k.csv").write_text("x,y,z\n1,2,high\n")
     Path("k.txt").write_text("1 2 3")
+    Path("far.csv").write_text(f"x,y,z\n1,2,{EYE}\n30,2,{EYE}\n")
     Path("one.json").write_text(f"[[1, 2, {EYE}]]")
     assert main(["plan", str(rooms_file), "--out", "o", "--quiet", *arguments]) == 2
     error = capsys.readouterr().err

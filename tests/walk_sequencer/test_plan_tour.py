@@ -76,7 +76,7 @@ def test_keypoints_at_one_spot_are_all_visited(rooms: Building) -> None:
 def test_keypoint_without_floor_is_reported_with_the_distance(rooms: Building) -> None:
     tour = plan_tour(rooms, [*POINTS, (30.0, 0.0, EYE), (1.0, 1.0, 9.0)])
     assert [u.index for u in tour.unreachable] == [5, 6]
-    reason = "no floor to stand on within 0.5 m of the point 1.6 m below it; the nearest is 21.9 m away"
+    reason = "no floor to stand on within 0.5 m of the point 1.6 m below it; the nearest is 21.88 m away"
     assert tour.unreachable[0].reason == reason
     assert sorted(tour.order.tolist()) == [0, 1, 2, 3, 4]
 

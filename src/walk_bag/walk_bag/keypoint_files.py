@@ -7,6 +7,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -123,20 +124,44 @@ def _of_bag(bag: Path) -> ImportedKeypoints:
 
 def _csv_rows(path: Path, text: str) -> list[dict[str, Any]]:
     table = csv.DictReader(text.splitlines(), skipinitialspace=True)
-    names = [name.strip() for name in table.fieldnames or ()]
+    if not table.fieldnames:
+        raise ExportError(path, "is empty; its first line names the columns, x,y,z, and every other line is a keypoint")
+    names = [name.strip() for name in table.fieldnames]
     missing = [name for name in "xyz" if name not in names]
     if missing:
-        raise ExportError(path, f"has no column {missing[0]!r}; the first line names the columns: x,y,z")
+        first = ",".join(names)
+        raise ExportError(
+            path, f"has no column {missing[0]!r}: its first line reads {first!r}, and it names the columns: x,y,z"
+        )
     table.fieldnames = names
     rows = []
     for row in table:
-        found: dict[str, Any] = {"position": [row[name] for name in "xyz"], "label": row.get("label") or ""}
+        line = table.line_num
+        # DictReader puts what is beyond the last column under None.
+        if any(text.strip() for text in row.pop(None, None) or ()):
+            raise ExportError(path, f"line {line} has more values than the {len(names)} columns of the first line")
+        found: dict[str, Any] = {"position": [_cell(path, line, name, row) for name in "xyz"]}
+        found["label"] = row.get("label") or ""
         if row.get("qx"):
-            found["quat_xyzw"] = [row.get(name) for name in ("qx", "qy", "qz", "qw")]
+            found["quat_xyzw"] = [_cell(path, line, name, row) for name in ("qx", "qy", "qz", "qw")]
         if row.get("yaw_deg"):
-            found["yaw_deg"] = row["yaw_deg"]
+            found["yaw_deg"] = _cell(path, line, "yaw_deg", row)
         rows.append(found)
     return rows
+
+
+def _cell(path: Path, line: int, name: str, row: Mapping[str, str | None]) -> float:
+    """Returns the number of a column in a line of the table."""
+    text = (row.get(name) or "").strip()
+    if not text:
+        raise ExportError(path, f"line {line} has no {name}; expected a number")
+    try:
+        value = float(text)
+    except ValueError:
+        value = np.nan
+    if not np.isfinite(value):
+        raise ExportError(path, f"line {line}: {name} is {text!r}; expected a finite number")
+    return value
 
 
 def _json_rows(path: Path, text: str) -> list[dict[str, Any]]:
@@ -173,7 +198,11 @@ def _checked(path: Path, number: int, row: dict[str, Any]) -> tuple[list[float],
 
 
 def _numbers(path: Path, number: int, name: str, values: Any, count: int) -> list[float]:
-    wrong = ExportError(path, f"keypoint {number}: {name} is {values!r}; expected {count} finite numbers")
+    expected = f"expected {count} finite numbers" if count > 1 else "expected a finite number"
+    shown = values if count > 1 or not isinstance(values, list) else values[0]
+    wrong = ExportError(path, f"keypoint {number}: {name} is {json.dumps(shown, ensure_ascii=False)}; {expected}")
+    if values is None:
+        wrong = ExportError(path, f"keypoint {number} has no {name}; {expected}")
     if not isinstance(values, list) or len(values) != count or any(isinstance(v, bool) for v in values):
         raise wrong
     try:

@@ -33,7 +33,7 @@ class Walker(Config):
             raise ParameterError("eye_height_m", self.eye_height_m, f"at most height_m, {self.height_m:g} m")
         if self.step_m + 2 * self.radius_m > self.height_m:
             raise ParameterError(
-                "height_m", self.height_m, f"at least step_m + 2 radius_m, {self.step_m + 2 * self.radius_m:g} m"
+                "height_m", self.height_m, f"at least step_m + 2 * radius_m, {self.step_m + 2 * self.radius_m:g} m"
             )
 
     @property

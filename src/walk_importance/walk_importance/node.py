@@ -258,6 +258,7 @@ class ImportanceNode(WalkNode):
 
         given = read_keypoints(file)
         eyes = given.eyes_in(building)
+        self.get_logger().info(f"suggested keypoints 1 to {len(eyes)} are those of {given.source}, in its order")
         return given_suggestion(building, importance_map, eyes, given.quat_xyzw, given.looks, given.source)
 
 

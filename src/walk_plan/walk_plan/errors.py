@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from walk_building.errors import WalkError
@@ -24,6 +25,26 @@ class NoWalkError(WalkError):
         super().__init__(
             f"{path}: a walk needs at least two viewpoints that can be reached, and there "
             f"{'is one' if keypoints == 1 else 'are none'}{because}; ask for more (--keypoints) or use a smaller walker"
+        )
+
+
+class TooFewKeypointsError(WalkError):
+    """Keypoints of the user's between which there is no walk.
+
+    Attributes:
+        source: Where they come from.
+        keypoints: How many of them can be reached.
+    """
+
+    def __init__(self, source: str, keypoints: int, left_out: Sequence[str] = ()) -> None:
+        self.source = source
+        self.keypoints = keypoints
+        there = {0: "are none", 1: "is one"}.get(keypoints, f"are {keypoints}")
+        which = " that can be reached" if left_out else ""
+        because = f"; {' '.join(left_out)}".removesuffix(".")
+        super().__init__(
+            f"{source}: a walk needs at least two keypoints{which}, and there {there}"
+            + (because if left_out else "; add another, or bring none and have them suggested")
         )
 
 

@@ -9,6 +9,7 @@ from walk_building.building import Building
 from walk_importance import given as importance
 from walk_importance.importance_map import ImportanceMap
 from walk_importance.keypoints import Suggestion
+from walk_sequencer.misplaced import misplaced
 from walk_sequencer.tour import Tour
 
 
@@ -18,6 +19,7 @@ def given_suggestion(building: Building, importance_map: ImportanceMap, given: I
     return importance.given_suggestion(building, importance_map, eyes, given.quat_xyzw, given.looks, given.source)
 
 
-def left_out(given: ImportedKeypoints, tour: Tour) -> tuple[str, ...]:
-    """Returns a sentence for each of the user's keypoints that the tour leaves out."""
-    return tuple(f"{given.name_of(u.index)} is left out: {u.reason}." for u in tour.unreachable)
+def left_out(building: Building, given: ImportedKeypoints, tour: Tour) -> tuple[str, ...]:
+    """Returns a sentence for each of the user's keypoints that the tour leaves out, or passes elsewhere."""
+    found = misplaced(building, given.eyes_in(building), tour)
+    return tuple(f"{given.name_of(index)} {what}." for index, what in found.items())

@@ -18,7 +18,7 @@ from walk_importance.pipeline import compute_importance
 from walk_plan.baselines import baselines, look_targets
 from walk_plan.clearance import SideClearance
 from walk_plan.compare.comparison import compare
-from walk_plan.errors import NoWalkError
+from walk_plan.errors import NoWalkError, TooFewKeypointsError
 from walk_plan.given import given_suggestion, left_out
 from walk_plan.options import PlanConfig
 from walk_plan.output_folder import OutputFolder
@@ -78,6 +78,8 @@ def make_walkthrough(
     Raises:
         WalkError: The building cannot be used, or nothing in it can be walked.
     """
+    if given is not None and len(given.positions) < 2:
+        raise TooFewKeypointsError(given.source, len(given.positions))
     with clock.stage("load") as told:
         building = load_building(building_path, config.load, config.walker, told)
     with clock.stage("importance") as told:
@@ -89,18 +91,20 @@ def make_walkthrough(
             suggestion = given_suggestion(building, importance_map, given)
     with clock.stage("tour") as told:
         tour = plan_tour(building, suggestion.positions, config.tour, told)
-        _check(building, tour)
+        _check(building, tour, given)
     with clock.stage("trajectory") as told:
         path = optimise_path(building, tour.polyline, tour.stands[tour.order], config.trajectory, told)
     with clock.stage("timing"):
         trajectory = time_path(path, config.timing, look_targets(suggestion, tour.stands, tour.order))
     with clock.stage("metrics") as told:
         walkthrough = _assess(config, building, importance_map, suggestion, tour, path, trajectory, clock, told)
-    notes = left_out(given, tour) if given is not None else ()
+    notes = left_out(building, given, tour) if given is not None else ()
     return dataclasses.replace(walkthrough, warnings=(*building.warnings, *notes))
 
 
-def _check(building: Building, tour: Tour) -> None:
+def _check(building: Building, tour: Tour, given: ImportedKeypoints | None) -> None:
+    if len(tour.order) < 2 and given is not None:
+        raise TooFewKeypointsError(given.source, len(tour.order), left_out(building, given, tour))
     if len(tour.order) < 2:
         reasons = "; ".join(sorted({unreachable.reason for unreachable in tour.unreachable}))
         raise NoWalkError(building.model.source, len(tour.order), reasons)

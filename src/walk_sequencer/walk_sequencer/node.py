@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from std_srvs.srv import Trigger
 
 from walk_building.building import Building
@@ -22,6 +23,7 @@ from walk_sequencer.authority import HALF_WAY, Authority
 from walk_sequencer.config import SequencerConfig
 from walk_sequencer.editing import EditingConfig
 from walk_sequencer.journal import Journal, default_state_dir
+from walk_sequencer.misplaced import misplaced
 from walk_sequencer.wishes import Wish
 
 
@@ -38,6 +40,7 @@ class SequencerNode(WalkNode):
         self._suggested: Poses | None = None
         self._replan = False
         self._planned_with: SequencerConfig | None = None
+        self._told: set[str] = set()  # about keypoints that are left out or moved
         self._view = KeypointView(self)
         self._desk = EditDesk(self, self._view)
         self.take_in("suggested_keypoints", self._store_suggestion)
@@ -61,6 +64,7 @@ class SequencerNode(WalkNode):
             self.diagnostics.latency(self.now_s() - began)
             self._publish(authority)
             self._publish_legs(authority)
+            self._tell_misplaced(building, authority)
         before, waiting = self._view.revision_ns, self._desk.waiting
         while waiting:
             # Taken off only once it is answered: a step that is superseded begins with it again.
@@ -75,6 +79,7 @@ class SequencerNode(WalkNode):
         """Drops the keypoints of another building; its suggestions are not for this one."""
         self._authority = None
         self._planned_with = None
+        self._told.clear()
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes no keypoints and an empty tour."""
@@ -149,6 +154,21 @@ class SequencerNode(WalkNode):
     def _publish_legs(self, authority: Authority) -> None:
         if authority.planned is not None:
             self._view.show_legs(authority.planned)
+
+    def _tell_misplaced(self, building: Building, authority: Authority) -> None:
+        """Logs, once each, the keypoints that are not passed where they are wished, numbered as they were suggested."""
+        planned = authority.planned
+        if planned is None:
+            return
+        keypoints, suggested = planned.keypoints, authority.keypoints.suggested
+        found = misplaced(building, keypoints.positions, planned.tour, self._editing().pull_m)
+        for row in sorted(found, key=lambda row: keypoints.ids[row]):
+            identity, what = keypoints.ids[row], found[row]
+            as_suggested = identity < len(suggested) and np.array_equal(suggested[identity], keypoints.positions[row])
+            name = f"suggested keypoint {identity + 1}" if as_suggested else f"keypoint {identity}"
+            if (sentence := f"{name} {what}") not in self._told:
+                self._told.add(sentence)
+                self.get_logger().warning(sentence)
 
     def _store_suggestion(self, msg: Any) -> None:
         suggested = keypoints_from_msg(msg)

@@ -86,4 +86,4 @@ def _elsewhere(building: Building, place: int) -> str:
 def _no_floor(building: Building, gap_m: float, config: SequencerConfig) -> str:
     eye = building.walker.eye_height_m
     where = f"within {config.snap_m:g} m of the point {eye:g} m below it"
-    return f"no floor to stand on {where}; the nearest is {gap_m:.1f} m away"
+    return f"no floor to stand on {where}; the nearest is {gap_m:.2f} m away"

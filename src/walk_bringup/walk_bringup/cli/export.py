@@ -23,6 +23,7 @@ from walk_bag.exports.ride import ExportConfig, Ride
 from walk_bag.imports import SOURCES, RecordedBuilding, load_ride, recorded_building
 from walk_bag.storage import cut_off_note
 from walk_bringup.bootstrap.commands import COMMANDS
+from walk_bringup.cli.spoken import spoken
 from walk_bringup.cli.units import UnitOfLength
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions, Model
@@ -37,9 +38,12 @@ def _with_config(command: click.Command) -> click.Command:
         meta = field.metadata
         limits = ", ".join(filter(None, (meta["unit"], f"{meta['low']:g} to {meta['high']:g}")))
         text = f"{meta['doc']} [{limits}] (default: {field.default:g})"
-        name = field.name.removesuffix("_rad").replace("_", "-")
-        command.params.append(click.Option([f"--{name}", field.name], type=type(field.default), help=text))
+        command.params.append(click.Option([f"--{_option(field)}", field.name], type=type(field.default), help=text))
     return command
+
+
+def _option(field: dataclasses.Field[Any]) -> str:
+    return field.name.removesuffix("_rad").replace("_", "-")
 
 
 @_with_config
@@ -65,9 +69,12 @@ def export(
 ) -> int:  # fmt: skip
     """Write the walk recorded in BAG (such as tour.mcap of `./walk plan`) in another program's format."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
-    config = ExportConfig(**{key: value for key, value in values.items() if value is not None})
+    with spoken({field.name: f"--{_option(field)}" for field in dataclasses.fields(ExportConfig)}):
+        config = ExportConfig(**{key: value for key, value in values.items() if value is not None})
+    with spoken({"units_m": "--units"}):
+        options = LoadOptions(units_m=units, up=up)
     ride = load_ride(bag, source)
-    ride, notes = _placed(ride, bag, building, LoadOptions(units_m=units, up=up), EXPORTERS[name].shows_building)
+    ride, notes = _placed(ride, bag, building, options, EXPORTERS[name].shows_building)
     notes += filter(None, [cut_off_note(bag)])
     path = out or bag.with_name(f"{bag.name.removesuffix('.mcap')}-{name}{EXPORTERS[name].suffix}")
     with _shown_progress(quiet) as progress:

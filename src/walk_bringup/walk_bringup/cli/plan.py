@@ -28,6 +28,7 @@ from walk_bag.camera_path import camera_keypoints
 from walk_bag.keypoint_files import ImportedKeypoints, read_keypoints
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
+from walk_bringup.cli.spoken import spoken
 from walk_bringup.cli.units import UNITS_M, UnitOfLength
 from walk_building.progress import no_progress
 from walk_plan.options import PlanOption, plan_config, plan_options
@@ -128,16 +129,26 @@ def plan(
     given = {names[variable]: value for variable, value in values.items() if value is not None}
     if camera_path is not None:
         given.setdefault("order", "given")
-    config = plan_config(given)
-    brought = brought_keypoints(keypoints_file, camera_path, given.get("keypoints"))
     # Told to end, it leaves as at Ctrl-C: nothing half-written stays behind.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     started = time.monotonic()
-    with _shown_progress(quiet) as progress:
-        walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare, given=brought)
+    # Some values are found wrong only once the building and its keypoints are known.
+    with spoken(_options_by_field()):
+        config = plan_config(given)
+        brought = brought_keypoints(keypoints_file, camera_path, given.get("keypoints"))
+        with _shown_progress(quiet) as progress:
+            walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare, given=brought)
     for line in summary_lines(walkthrough, out, time.monotonic() - started):
         print(line)
     return 0
+
+
+def _options_by_field() -> dict[str, str]:
+    """Returns what is typed for each field; two configs may share a field's name."""
+    found: dict[str, list[str]] = {}
+    for option in plan_options():
+        found.setdefault(option.field.name, []).append(f"--{option.name}")
+    return {field: " or ".join(names) for field, names in found.items()}
 
 
 def brought_keypoints(file: Path | None, camera_path: Path | None, count: int | None) -> ImportedKeypoints | None:

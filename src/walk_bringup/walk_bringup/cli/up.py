@@ -18,6 +18,7 @@ from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli.executables import find_executable
 from walk_bringup.cli.overrides import Configs, checked, overrides_yaml, read_params, read_params_file
 from walk_bringup.cli.processes import Child, Supervisor
+from walk_bringup.cli.spoken import spoken
 from walk_bringup.cli.units import UnitOfLength
 from walk_building.config import Config
 from walk_building.loaders import check_file, load_model
@@ -132,7 +133,8 @@ def load_params(units_m: float | None, up_axis: str | None) -> tuple[str, ...]:
     """
     given = {"units_m": units_m, "up": up_axis}
     chosen = {name: value for name, value in given.items() if value is not None}
-    LoadOptions(**chosen)  # type: ignore[arg-type]  # refused under its own name, not under that of a node's parameter
+    with spoken({"units_m": "--units"}):  # the option that was typed, not the node's parameter
+        LoadOptions(**chosen)  # type: ignore[arg-type]
     return tuple(f"{node}.load.{name}={value}" for name, value in chosen.items() for node in NODES)
 
 
