@@ -155,9 +155,20 @@ def test_replay_from_a_moment_gives_what_held_then_and_a_clock(session, other_do
         seek.publish(Float64(data=timeline.duration_s))
         listener.wait(lambda: listener.last("path") == paths[-1][1], "the path at the end")
         assert graph.processes["replay"].wait(20) == 0
+        log = graph.log("replay")
+        assert "messages; not " in log and f"on {PARAMETERS} (it would speak for nodes that are not there)" in log
+        assert "which held no longer" in log and "as well, and listeners hear both" not in log
     finally:
         listener.close()
         graph.close()
+
+
+def test_a_replay_beside_the_graph_that_publishes_the_same_is_said(session, graph, observer):
+    graph.run("replay", "walk_bag.replay", str(session.bag), "--topics", "tour", "path", "--rate", "100")
+    assert graph.processes["replay"].wait(60) == 0
+    (line,) = (line for line in graph.log("replay").splitlines() if "listeners hear both" in line)
+    assert "/walk/sequencer, /walk/trajopt as well" in line and "and 1 more of its topics" in line
+    assert f"on {PARAMETERS} (not among --topics)" in graph.log("replay")
 
 
 def test_the_edits_played_into_a_fresh_graph_give_the_same_walk(session, rooms, other_domain, tmp_path):
@@ -179,6 +190,7 @@ def test_the_edits_played_into_a_fresh_graph_give_the_same_walk(session, rooms, 
         assert c.keypoint_markers_from_msg(listener.last("keypoint_markers")).ids == keypoints.ids
         marks = c.keypoint_marks_from_msg(listener.last("keypoint_markers"))
         assert (marks.locked, marks.dwell_s) == (session.marks.locked, session.marks.dwell_s)
+        assert "listeners hear both" not in graph.log("replay")
         again = settled(listener)
         assert len(again.positions) == len(path.positions)
         np.testing.assert_allclose(again.positions, path.positions, atol=1e-6)

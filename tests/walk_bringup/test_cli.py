@@ -15,8 +15,10 @@ import pytest
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.bootstrap.errors import SetupError
 from walk_bringup.cli import executables as lookup
+from walk_bringup.cli.bench import _OF_THE_PAGE, _OTHERS, MEASUREMENTS
 from walk_bringup.cli.main import group, main
 from walk_bringup.cli.up import refuse_taken_port, ros_arguments
+from walk_plan.bench import BENCHES
 from walk_plan.options import plan_options
 
 SOURCES = [str(path) for path in sorted((Path(__file__).resolve().parents[2] / "src").iterdir())]
@@ -28,6 +30,23 @@ def test_every_command_explains_itself_with_examples(name: str, capsys: pytest.C
     out = capsys.readouterr().out
     assert "Examples:" in out
     assert f"./walk {name}" in out
+
+
+def test_the_help_of_bench_lists_every_measurement(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["bench", "--help"]) == 0
+    out = capsys.readouterr().out
+    assert set(MEASUREMENTS) == {*BENCHES, *_OTHERS, *_OF_THE_PAGE}
+    assert all(f"  {word} " in out for word in MEASUREMENTS)
+    assert main(["bench", "lode"]) == 2
+    assert "there is no measurement 'lode'; did you mean load?" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["record", "recover", "replay"])
+def test_what_is_handed_over_is_called_as_it_was_typed(name: str) -> None:
+    script = f"import walk_bag.{name} as it; it.main(['{name}', '--help'])"
+    env = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "WALK_COMMAND": f"./walk {name}"}
+    told = subprocess.run([sys.executable, "-c", script], env=env, capture_output=True, text=True, timeout=60)
+    assert f"usage: ./walk {name} " in told.stdout, told.stderr
 
 
 @pytest.mark.parametrize("word", ["live", "bridge", "release"])
@@ -51,7 +70,7 @@ def test_every_command_in_the_overview_exists() -> None:
         (["plan"], "Missing argument"),
         (["plan", "x.ifc"], "--out"),
         (["plan", "x.ifc", "--out", "o", "--speed", "fast"], "not a valid float"),
-        (["plan", "x.ifc", "--out", "o", "--speed", "-1"], "speed_mps is -1.0"),
+        (["plan", "x.ifc", "--out", "o", "--speed", "-1"], "--speed is -1.0"),
         (["plan", "/missing/x.ifc", "--out", "o"], "/missing/x.ifc"),
         (["up", "/missing/x.ifc"], "/missing/x.ifc"),
         (["up", "--frobnicate"], "--frobnicate"),

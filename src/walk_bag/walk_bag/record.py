@@ -147,7 +147,9 @@ def chosen_topics(namespace: str, names: Sequence[str]) -> dict[str, Topic]:
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
     """Returns the options of the command line."""
-    parser = argparse.ArgumentParser(prog="record", description="Record a walkthrough as a rosbag2 (MCAP) bag.")
+    parser = argparse.ArgumentParser(
+        prog=os.environ.get("WALK_COMMAND", "record"), description="Record a walkthrough as a rosbag2 (MCAP) bag."
+    )
     parser.add_argument("--out", type=Path, help="directory, or file ending in .mcap (default: named by the time)")
     parser.add_argument("--namespace", default=NAMESPACE, help="of the nodes (default: %(default)s)")
     parser.add_argument("--topics", nargs="+", default=[], choices=list(TOPICS), help="only these", metavar="TOPIC")

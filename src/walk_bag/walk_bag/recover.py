@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +17,8 @@ from walk_bag.storage import recover_bag, unfinished_file
 def parse(argv: Sequence[str]) -> argparse.Namespace:
     """Returns the options of the command line."""
     parser = argparse.ArgumentParser(
-        prog="recover", description="Make a whole bag of one whose recording was killed or ran out of disk."
+        prog=os.environ.get("WALK_COMMAND", "recover"),
+        description="Make a whole bag of one whose recording was killed or ran out of disk.",
     )
     parser.add_argument("bag", type=Path, help="bag directory or .mcap file; it stays as it is")
     parser.add_argument("--out", type=Path, help="the new bag (default: BAG-recovered beside it)")

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import threading
 from collections.abc import Sequence
@@ -17,9 +18,10 @@ from std_srvs.srv import SetBool
 from walk_bag import parameter_watch
 from walk_bag.errors import BagError
 from walk_bag.pace import Pace
-from walk_bag.storage import cut_off_note, read_topics
+from walk_bag.storage import cut_off_note, read_counts, read_topics
 from walk_bag.timeline import Timeline
 from walk_bag.topics import BagMessage, BagTopic
+from walk_bag.unplayed import account, reason
 from walk_ros.errors import ArgumentError
 from walk_ros.qos import reliable
 from walk_ros.raw import RawPublisher, message_type, profile
@@ -30,6 +32,12 @@ ACKNOWLEDGE_S = 5.0
 """How long a subscriber may take to acknowledge the last message before the process ends."""
 
 CLOCK_HZ = 100.0
+
+LOOK_S = 1.0
+"""How often others who publish the same are looked for: on a busy machine they are found after some seconds."""
+
+_MEANT_FOR_MANY = ("keypoint_edits", "/diagnostics")
+"""Topics that many publish; edits are played into a running graph on purpose."""
 
 
 class Replayer(RawPublisher):
@@ -49,6 +57,8 @@ class Replayer(RawPublisher):
         self.create_service(SetBool, absolute_name("replay/pause", options.namespace), self._pause)
         if options.clock:
             self.create_timer(1 / CLOCK_HZ, self._tell_time)
+        self._alone = True
+        self._look = self.create_timer(LOOK_S, self._look_for_others)
         self._thread = threading.Thread(target=self._run, name="replay", daemon=True)
         self._thread.start()
 
@@ -70,6 +80,7 @@ class Replayer(RawPublisher):
                     self.wait_until_received(ACKNOWLEDGE_S)
                 if not self._options.loop:
                     break
+            self._look_for_others()
         except BagError as error:
             self.get_logger().error(str(error))
         if self._options.hold:
@@ -81,6 +92,7 @@ class Replayer(RawPublisher):
         """Publishes the bag once from a moment on, and from another one whenever that is asked for."""
         sought: int | None = start_ns
         while sought is not None and not self._pace.ended:
+            from_s = (sought - self._timeline.start_ns) / 1e9
             state = self._timeline.state_at(sought)
             for message in state:
                 self.send(message.topic.name, message.data)
@@ -88,11 +100,43 @@ class Replayer(RawPublisher):
             count = len(state)
             for message in self._timeline.messages_from(sought):
                 if not self._pace.wait_for(message.stamp_ns):
+                    said = f"published {count} messages up to where it was ended or sent elsewhere"
                     break
                 self._publish(message)
                 count += 1
+            else:
+                said = self._account(count, from_s)
             sought = self._pace.take_sought()
-            self.get_logger().info(f"published {count} messages of {self._options.bag}")
+            self.get_logger().info(f"{self._options.bag}: {said}")
+
+    def _account(self, count: int, from_s: float) -> str:
+        played = {topic.name for topic in self._timeline.topics}
+        topics = {
+            topic.name: reason(topic.name, topic.type_name, _installed(topic), not self._options.topics)
+            for topic in read_topics(self._options.bag)
+            if topic.name not in played
+        }
+        return account(count, read_counts(self._options.bag), topics, from_s)
+
+    def _look_for_others(self) -> None:
+        """Warns, once, of nodes that publish what is played: whoever listens would hear both."""
+        many = {absolute_name(name, self._options.namespace) for name in _MEANT_FOR_MANY}
+        shared, nodes = [], set()
+        for topic in self._timeline.topics:
+            found = self.get_publishers_info_by_topic(topic.name) if topic.name not in many else []
+            if len(found) > 1:
+                shared.append(topic.name)
+                nodes |= {f"{one.node_namespace.rstrip('/')}/{one.node_name}" for one in found}
+        if not shared or not self._alone:
+            return
+        self._alone = False
+        self._look.cancel()
+        others = sorted(nodes - {self.get_fully_qualified_name()}) or ["another replay"]
+        more = f" and {len(shared) - 1} more of its topics" if len(shared) > 1 else ""
+        self.get_logger().warning(
+            f"{shared[0]}{more} are published by {', '.join(others)} as well, and listeners hear both: end that graph, "
+            "or replay in a ROS domain of its own, such as ROS_DOMAIN_ID=7"
+        )
 
     def _publish(self, message: BagMessage) -> None:
         self._tell_time()
@@ -126,7 +170,9 @@ def _as_topic(topic: BagTopic) -> Topic:
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:
     """Returns the options of the command line."""
-    parser = argparse.ArgumentParser(prog="replay", description="Publish a recorded walkthrough again.")
+    parser = argparse.ArgumentParser(
+        prog=os.environ.get("WALK_COMMAND", "replay"), description="Publish a recorded walkthrough again."
+    )
     parser.add_argument("bag", type=Path, help="bag directory or .mcap file")
     parser.add_argument("--rate", type=_positive, default=1.0, help="how many times as fast (default: %(default)s)")
     parser.add_argument(

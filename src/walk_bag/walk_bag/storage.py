@@ -8,6 +8,7 @@ import contextlib
 import functools
 import heapq
 import itertools
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
@@ -187,6 +188,19 @@ def read_topics(path: Path | str) -> tuple[BagTopic, ...]:
         return tuple(found.values())
     with _reading(path) as readers:
         return tuple({c.topic: _topic(c) for reader in readers for c in reader.connections}.values())
+
+
+def read_counts(path: Path | str) -> dict[str, int]:
+    """Returns how many messages each topic of a bag has; raises BagError as `read_bag` does."""
+    path = _existing(path)
+    counts: Counter[str] = Counter()
+    if unfinished_file(path) is not None:
+        counts.update(message.topic.name for message in _whole_messages(path))
+        return dict(counts)
+    with _reading(path) as readers:
+        for connection in (c for reader in readers for c in reader.connections):
+            counts[connection.topic] += connection.msgcount
+    return dict(counts)
 
 
 def read_span(path: Path | str) -> tuple[int, int]:

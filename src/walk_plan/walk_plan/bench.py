@@ -182,12 +182,13 @@ BENCHES: dict[str, Callable[[Path, int], dict[str, Any]]] = {
 def main(arguments: list[str] | None = None) -> int:
     """Runs a measurement and prints it as JSON; returns the exit code."""
     parser = argparse.ArgumentParser(prog="./walk bench", description="Measure the stages; prints JSON.")
-    parser.add_argument("stage", nargs="?", default="plan", choices=sorted(BENCHES), help="what to measure")
-    parser.add_argument("--building", type=Path, help="building file (default: the sample)")
+    parser.add_argument("stage", nargs="?", default="plan", choices=list(BENCHES), help="what to measure")
+    parser.add_argument("building", nargs="?", type=Path, metavar="BUILDING", help="its file (default: the sample)")
+    parser.add_argument("--building", dest="named", type=Path, metavar="BUILDING", help="the same")
     parser.add_argument("--repeats", type=int, default=3, help="runs whose median counts, at least 1")
-    options = parser.parse_args(arguments)
+    options = parser.parse_intermixed_args(arguments)
     try:
-        figures = BENCHES[options.stage](options.building or _sample(), max(options.repeats, 1))
+        figures = BENCHES[options.stage](options.named or options.building or _sample(), max(options.repeats, 1))
     except WalkError as error:
         sys.stderr.write(f"walk: {error}\n")
         return 2

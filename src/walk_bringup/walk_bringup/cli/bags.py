@@ -50,6 +50,7 @@ def replay(arguments: tuple[str, ...]) -> int:
 def _hand_over(name: str, arguments: tuple[str, ...]) -> int:
     path = find_executable("walk_bag", name)
     sys.stdout.flush()
+    os.environ["WALK_COMMAND"] = f"./walk {name}"  # what its help and its complaints call it
     if "--help" in arguments or "-h" in arguments:
         code = subprocess.run([path, "--help"]).returncode
         print("\nexamples:", *_EXAMPLES[name], sep="\n  ")
