@@ -16,6 +16,7 @@ from walk_building import BodySweep, Building, ParameterError
 from walk_trajopt.check import PathCheck
 from walk_trajopt.config import TrajoptConfig
 from walk_trajopt.curve import refine
+from walk_trajopt.objectives import OBJECTIVES
 from walk_trajopt.pipeline import optimise_path
 from walk_trajopt.polyline import Polyline
 from walk_trajopt.resample import keypoint_arcs, resample
@@ -167,8 +168,7 @@ def test_bad_input_is_named(rooms: Building) -> None:
     with pytest.raises(ParameterError, match="points"):
         optimise_path(rooms, eyes((1, 1), (2, 1), (3, 1)), eyes((1, 1), (2, 1), (3, 1)), TrajoptConfig(points=2))
     with pytest.raises(ParameterError, match="one of weight_"):
-        TrajoptConfig(**{f"weight_{n}": 0.0 for n in
-                         ("deviation", "length", "smoothness", "clearance", "height", "keypoints")})  # fmt: skip
+        TrajoptConfig(**{f"weight_{name}": 0.0 for name in OBJECTIVES})
     with pytest.raises(ParameterError, match="weight_length"):
         TrajoptConfig(weight_length=-1.0)
     with pytest.raises(ParameterError, match="weight_length"):

@@ -11,7 +11,7 @@ import pytest
 
 from walk_building import Building
 from walk_trajopt.config import TrajoptConfig
-from walk_trajopt.objectives import Setting
+from walk_trajopt.objectives import OBJECTIVES, Setting
 from walk_trajopt.problem import Problem
 from walk_trajopt.solvers import SOLVERS
 
@@ -24,6 +24,12 @@ def tolerance(name: str) -> TrajoptConfig:
     return TrajoptConfig(solver=name, max_iterations=20_000 if name == "lbfgs" else 500, tolerance=1e-9)
 
 
+def weighing(solver: str, iterations: int, **weights: float) -> TrajoptConfig:
+    """The settings with these objectives alone."""
+    every = {f"weight_{name}": weights.get(name, 0.0) for name in OBJECTIVES}
+    return TrajoptConfig(solver=solver, max_iterations=iterations, tolerance=1e-12, **every)
+
+
 def ends(n: int) -> np.ndarray:
     fixed = np.zeros(n, bool)
     fixed[[0, -1]] = True
@@ -34,10 +40,7 @@ def ends(n: int) -> np.ndarray:
 def test_length_alone_gives_the_straight_line(name: str, hall: Building, make_setting: MakeSetting) -> None:
     t = np.linspace(0, 1, 40)
     start = np.column_stack([2 + 8 * t, 4 + 2 * np.sin(3 * t), 1.6 + 0 * t])
-    config = TrajoptConfig(
-        solver=name, weight_length=1.0, weight_deviation=0.0, weight_smoothness=0.0, weight_clearance=0.0,
-        weight_height=0.0, weight_keypoints=0.0, max_iterations=5000, tolerance=1e-12,
-    )  # fmt: skip
+    config = weighing(name, 5000, length=1.0)
     x = SOLVERS[name](Problem(make_setting(hall, start), config, ends(40)), start, config).x
     np.testing.assert_allclose(x, start[0] + t[:, None] * (start[-1] - start[0]), atol=2e-3)
 
@@ -46,10 +49,7 @@ def test_length_alone_gives_the_straight_line(name: str, hall: Building, make_se
 def test_clearance_pushes_out_to_the_wished_distance(name: str, hall: Building, make_setting: MakeSetting) -> None:
     t = np.linspace(0, 1, 30)
     start = np.column_stack([3 + 5 * t, np.full(30, 0.3), np.full(30, 1.6)])
-    config = TrajoptConfig(
-        solver=name, weight_clearance=100.0, weight_deviation=1e-4, weight_length=0.0, weight_smoothness=0.0,
-        weight_height=1.0, weight_keypoints=0.0, max_iterations=2000, tolerance=1e-12,
-    )  # fmt: skip
+    config = weighing(name, 2000, clearance=100.0, deviation=1e-4, height=1.0)
     setting = make_setting(hall, start, clearance_of="eye")
     x = SOLVERS[name](Problem(setting, config, np.zeros(30, bool)), start, config).x
     np.testing.assert_allclose(x[:, 1], 0.6, atol=1e-3)
@@ -59,10 +59,7 @@ def test_clearance_pushes_out_to_the_wished_distance(name: str, hall: Building, 
 def test_height_alone_follows_the_ramp(name: str, sloping: Building, make_setting: MakeSetting) -> None:
     t = np.linspace(0, 1, 30)
     start = np.column_stack([3 + 6 * t, np.full(30, 1.0), 1.75 + 0.125 * (1 + 6 * t)])
-    config = TrajoptConfig(
-        solver=name, weight_height=10.0, weight_deviation=1e-5, weight_length=0.0, weight_smoothness=0.0,
-        weight_clearance=0.0, weight_keypoints=0.0, max_iterations=2000, tolerance=1e-12,
-    )  # fmt: skip
+    config = weighing(name, 2000, height=10.0, deviation=1e-5)
     x = SOLVERS[name](Problem(make_setting(sloping, start), config, np.zeros(30, bool)), start, config).x
     np.testing.assert_allclose(x[:, 2], 1.6 + 0.125 * (x[:, 0] - 2), atol=5e-3)
 
