@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Stage 2: the importance map, as a picture of each storey at the eye's height.
 
-./walk python examples/2_importance.py [BUILDING]
+./walk python examples/2_importance.py [BUILDING [PICTURE]]
 """
 
 import sys
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -28,5 +29,7 @@ for axis, storey in zip(axes[0], building.storeys, strict=True):
     importance = np.where(importance_map.obstacle > 0, np.nan, importance_map.importance)[:, :, level]
     axis.imshow(importance.T, origin="lower")
     axis.set_title(storey.name)
-figure.savefig("importance.png")
-print("importance.png is written")
+picture = Path(sys.argv[2] if len(sys.argv) > 2 else "out/importance.png")
+picture.parent.mkdir(parents=True, exist_ok=True)
+figure.savefig(picture)
+print(f"{picture} is written")

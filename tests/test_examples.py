@@ -43,7 +43,7 @@ def test_stage_2_draws_the_map(rooms, tmp_path):
     errors = [float(e) for e in re.findall(r"visibility: ([\d.]+)", text)]
     assert len(errors) > 1
     assert errors[-1] == min(errors)
-    assert (tmp_path / "importance.png").stat().st_size > 5000
+    assert (tmp_path / "out" / "importance.png").stat().st_size > 5000
 
 
 def test_stage_3_lists_keypoints(rooms, tmp_path):

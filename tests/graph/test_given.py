@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A graph that begins with the user's keypoints: what `./walk up --keypoints-file` starts."""
 
+import time
+
 import numpy as np
 import pytest
 from graph.processes import EditKind, settled
@@ -76,6 +78,22 @@ def test_the_file_begins_a_session_also_where_an_earlier_one_has_edited(graph, o
     assert "edited in an earlier session are back" in graph.log("sequencer")
     assert again(parameters["sequencer"]).max() < 1e-3
     assert "put aside" in graph.log("sequencer")
+
+
+def test_a_sequencer_started_again_within_the_session_keeps_its_edits(graph, observer, parameters):
+    begun = time.time()
+    keypoints = c.keypoint_markers_from_msg(observer.last("keypoint_markers"))
+    second = 1
+    moved = keypoints.poses.positions[keypoints.ids.index(second)] + [0.2, 0.1, 0.0]
+    for kind in (EditKind.GRAB, EditKind.DRAG, EditKind.RELEASE):
+        answer = observer.edit(kind, second, moved)()
+    assert answer.outcome is c.Outcome.ACCEPTED, answer.reason
+    graph.kill("sequencer")
+    heard = len(observer.heard["keypoints"])
+    graph.start("sequencer", parameters["sequencer"], f"editing.session_start_s:={begun}")
+    observer.after("keypoints", heard, "the keypoints")
+    shown = c.keypoints_from_msg(observer.last("keypoints")).positions
+    assert np.linalg.norm(shown - moved, axis=1).min() < 0.01
 
 
 def test_the_next_start_without_the_file_has_suggested_ones_again(graph, observer, parameter):

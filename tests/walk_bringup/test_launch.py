@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import ast
 import json
+import runpy
+import sys
+import types
 from pathlib import Path
 from typing import Any
 
+import pytest
 import yaml
 
-from walk_bringup.cli.up import NODES
+from walk_bringup.cli.up import NODES, keypoint_params
 
 SHARE = Path(__file__).resolve().parents[2] / "src" / "walk_bringup"
 LAUNCH = (SHARE / "launch" / "walk.launch.py").read_text(encoding="utf-8")
@@ -45,6 +49,43 @@ def test_launch_file_starts_the_nodes_that_up_starts() -> None:
     assignments = (node for node in ast.parse(LAUNCH).body if isinstance(node, ast.Assign))
     nodes = next(node.value for node in assignments if getattr(node.targets[0], "id", "") == "NODES")
     assert ast.literal_eval(nodes) == NODES
+
+
+class _Made(dict[str, Any]):
+    """What stands for a class of launch: its arguments, by name or in a row."""
+
+    def __init__(self, *row: Any, **named: Any) -> None:
+        super().__init__(named, row=row)
+
+    def perform(self, context: dict[str, str]) -> str:
+        return context.get(self["row"][0], "")
+
+
+def _launched(monkeypatch: pytest.MonkeyPatch, **arguments: str) -> dict[str, dict[str, Any]]:
+    """Returns the parameters that the launch file sets by itself, by node; launch is no Python wheel."""
+    names = ("LaunchContext", "LaunchDescription", "DeclareLaunchArgument", "OpaqueFunction", "LaunchConfiguration")
+    made = dict.fromkeys((*names, "PathJoinSubstitution", "Node", "ParameterValue", "FindPackageShare"), _Made)
+    for module in ("actions", "substitutions"):
+        monkeypatch.setitem(sys.modules, f"launch.{module}", types.SimpleNamespace(**made))
+    for module in ("launch", "launch_ros", *(f"launch_ros.{m}" for m in ("actions", "substitutions"))):
+        monkeypatch.setitem(sys.modules, module, types.SimpleNamespace(**made))
+    monkeypatch.setitem(sys.modules, "launch_ros.parameter_descriptions", types.SimpleNamespace(**made))
+    values = runpy.run_path(str(SHARE / "launch" / "walk.launch.py"))
+    values["generate_launch_description"]()
+    nodes = values["_nodes"](arguments)
+    return {node["name"]: {k: v for part in node["parameters"][2:] for k, v in part.items()} for node in nodes}
+
+
+def test_keypoints_of_a_file_begin_a_session_as_with_up(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("x,y,z\n1,2,1.6\n")
+    told = _launched(monkeypatch, keypoints_file=str(file))
+    assert told["importance"]["keypoints_file"]["row"] == (str(file),)
+    assert told["sequencer"].pop("editing.session_start_s") > 1.7e9
+    asked = (param.partition("=") for param in keypoint_params(file) if param.startswith("sequencer."))
+    assert told["sequencer"] == {name.removeprefix("sequencer."): value != "false" for name, _, value in asked}
+    # Without a file, what a parameter file says of it counts.
+    assert _launched(monkeypatch)["sequencer"] == {}
 
 
 def test_rviz_shows_topics_of_the_table() -> None:

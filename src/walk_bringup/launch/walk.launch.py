@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node graph for `ros2 launch walk_bringup walk.launch.py`."""
 
+import time
+
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
@@ -54,6 +56,11 @@ def generate_launch_description() -> LaunchDescription:
             description="Where the frame map is in parent_frame: x y z [m] yaw pitch roll [rad].",
         ),
     ]
+    return LaunchDescription([*arguments, *(OpaqueFunction(function=made) for made in (_nodes, _viewer, _transform))])
+
+
+def _nodes(context: LaunchContext) -> list[Node]:
+    """Returns the planner's nodes."""
     overrides = {
         # A path of digits alone would otherwise be read as a number.
         "building": ParameterValue(LaunchConfiguration("building"), value_type=str),
@@ -63,9 +70,13 @@ def generate_launch_description() -> LaunchDescription:
         "bridge.port": ParameterValue(LaunchConfiguration("port"), value_type=int),
         "bridge.lan": ParameterValue(LaunchConfiguration("lan"), value_type=bool),
     }
-    suggests = {"keypoints_file": ParameterValue(LaunchConfiguration("keypoints_file"), value_type=str)}
-    own = {"importance": [suggests], "vr_bridge": [bridge]}
-    nodes = [
+    own = {"importance": [], "sequencer": [], "vr_bridge": [bridge]}
+    file = LaunchConfiguration("keypoints_file").perform(context)
+    if file:
+        # They begin a session, but a sequencer that is started again within it goes on where it was.
+        own["importance"] = [{"keypoints_file": ParameterValue(file, value_type=str)}]
+        own["sequencer"] = [{"editing.restore": False, "editing.session_start_s": time.time()}]
+    return [
         Node(
             package=package,
             executable=name,
@@ -80,9 +91,6 @@ def generate_launch_description() -> LaunchDescription:
         )
         for name, package in NODES.items()
     ]
-    return LaunchDescription(
-        [*arguments, *nodes, OpaqueFunction(function=_viewer), OpaqueFunction(function=_transform)]
-    )
 
 
 def _viewer(context: LaunchContext) -> list[Node]:

@@ -24,3 +24,11 @@ class EditingConfig(Config):
     restore: bool = param(
         True, "begin with the keypoints in the journal of this building; false puts the journal aside at the next load"
     )
+    session_start_s: float = param(
+        0.0,
+        "when this session began, in seconds since 1970: a journal written later is its own and comes back even where "
+        "restore is false, so that a node that is started again loses nothing; 0: not known",
+        unit="s",
+        low=0.0,
+        high=1e11,
+    )

@@ -77,6 +77,13 @@ class Journal:
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 
+    def written_after(self, time_s: float) -> bool:
+        """Returns whether there is a journal whose last change came after a time [s since 1970]; 0 is no time."""
+        try:
+            return 0.0 < time_s < self.path.stat().st_mtime
+        except OSError:
+            return False
+
     def put_aside(self) -> Path | None:
         """Renames the journal to `.old`, so that the next start begins without it; returns that, or None for none."""
         aside = self.path.with_suffix(".old")

@@ -100,7 +100,9 @@ class SequencerNode(WalkNode):
 
     def _open(self, building: Building) -> Authority:
         journal = Journal(Path(str(self.get_parameter("state_dir").value)), building.hash)
-        aside = None if self._editing().restore else journal.put_aside()
+        editing = self._editing()
+        keep = editing.restore or journal.written_after(editing.session_start_s)
+        aside = None if keep else journal.put_aside()
         if aside is not None:
             self.get_logger().info(f"the keypoints of an earlier session are put aside, in {aside}")
         self._authority = Authority(building, journal)

@@ -15,7 +15,7 @@ from walk_bringup.projects.files import load_yaml
 from walk_building.config import Config
 from walk_building.errors import ParameterError
 
-OF_THE_MACHINE = ("bridge.port", "bridge.lan", "bridge.hosts", "editing.restore")
+OF_THE_MACHINE = ("bridge.port", "bridge.lan", "bridge.hosts", "editing.restore", "editing.session_start_s")
 """What is not saved: who else may come in is decided where the project is opened, not by the file."""
 
 _HEADER = "# The parameters of the nodes when this project was saved; ./walk params prints all with units and ranges.\n"
