@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
@@ -134,7 +135,20 @@ def test_a_bag_without_a_walk_is_said(tmp_path: Path) -> None:
     write_bag(tmp_path / "k.mcap", a_ride(), ("keypoints",))
     with pytest.raises(BagError, match="holds no trajectory"):
         load_ride(tmp_path / "k.mcap")
-    with pytest.raises(BagError, match="no viewpoint"):
+    with pytest.raises(
+        BagError, match="no viewpoint: nobody played the walk while it was recorded; what was planned is"
+    ):
+        load_ride(tmp_path / "k.mcap", "viewpoint")
+
+
+@pytest.mark.parametrize("samples", [1, 5])
+def test_a_session_in_which_nobody_moved_is_said(tmp_path: Path, samples: int) -> None:
+    ride = a_ride()
+    still = dataclasses.replace(
+        ride, t_s=ride.t_s[:samples], quat_xyzw=ride.quat_xyzw[:samples], positions=np.zeros((samples, 3))
+    )
+    write_bag(tmp_path / "k.mcap", still, ("viewpoint",))
+    with pytest.raises(BagError, match="no viewpoint that moves: nobody played"):
         load_ride(tmp_path / "k.mcap", "viewpoint")
 
 

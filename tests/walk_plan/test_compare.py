@@ -13,6 +13,7 @@ import pytest
 import trimesh
 from scenes import ramp
 
+from walk_bringup.cli.main import main
 from walk_plan.compare.comparison import Comparison, compare, figures
 from walk_plan.compare.page import write_page
 from walk_plan.compare.slope import NO_HEIGHT, NO_SLOPE, SlopeComparison, compare_on_slope
@@ -106,9 +107,12 @@ def test_a_bent_line_has_a_sharp_turn_above_thirty_degrees(angle: float, expecte
     assert sharp_turns(points) == expected
 
 
-def test_a_comparison_is_written_beside_the_plan_and_goes_with_the_next(rooms_file: Path, tmp_path: Path) -> None:
+def test_a_comparison_is_written_beside_the_plan_and_goes_with_the_next(
+    rooms_file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "out"
-    plan_walkthrough(rooms_file, out, comparison=True)
+    assert main(["plan", str(rooms_file), "--out", str(out), "--compare", "--quiet"]) == 0
+    assert capsys.readouterr().out.splitlines()[-1].startswith(f"comparison {out / 'compare.html'}: ")
     assert set(COMPARISON_WRITERS) <= {made.name for made in out.iterdir()}
     data = json.loads((out / "compare.json").read_text())
     assert [entry["left_out"] for entry in data["objectives"]] == ["", *WEIGHTED]

@@ -77,6 +77,16 @@ def test_another_trajectory_is_joined_where_the_eye_is(player):
     assert not player.playing
 
 
+@pytest.mark.parametrize("at_s", [0.0, 10.0])
+def test_who_waits_at_an_end_stays_there_when_an_edit_moves_it(player, at_s):
+    player.seek(at_s, 0.0)
+    # It begins 3 m before the first one and ends 2 m behind it.
+    longer = straight(15.0)
+    longer.positions[:, 0] -= 3.0
+    player.take(longer, 5.0)
+    assert player.time(5.0) == (15.0 if at_s else 0.0) and not player.playing
+
+
 def test_on_a_trajectory_that_comes_by_twice_the_nearer_time_counts():
     there = straight()
     back = straight(reverse=True)

@@ -34,6 +34,8 @@ SOURCES = ("trajectory", "viewpoint")
 
 # Slower is standing.
 _STANDING_MPS = 0.02
+# Who has moved less has not walked.
+_MOVED_M = 0.01
 
 
 def load_ride(bag: Path | str, source: str = "trajectory", namespace: str = "walk") -> Ride:
@@ -80,11 +82,17 @@ def load_ride(bag: Path | str, source: str = "trajectory", namespace: str = "wal
 def _watched(
     bag: Path, views: list[tuple[int, Any]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    if not views:
-        raise BagError(bag, "holds no viewpoint: nobody played the walk while it was recorded")
     poses = [viewpoint_from_msg(msg) for _, msg in views]
+    positions = np.array([p.positions[0] for p in poses]).reshape(-1, 3)
+    if len(views) < 2 or np.ptp(positions, axis=0).max() < _MOVED_M:
+        told = "no viewpoint" if not views else "no viewpoint that moves"
+        raise BagError(
+            bag,
+            f"holds {told}: nobody played the walk while it was recorded; what was planned is in it, which "
+            "./walk export takes with --from trajectory",
+        )
     t_s = np.array([stamp - views[0][0] for stamp, _ in views]) / 1e9
-    return t_s, np.vstack([p.positions for p in poses]), np.vstack([p.quat_xyzw for p in poses])
+    return t_s, positions, np.vstack([p.quat_xyzw for p in poses])
 
 
 def _standing(t_s: NDArray[np.float64], positions: NDArray[np.float64]) -> NDArray[np.bool_]:

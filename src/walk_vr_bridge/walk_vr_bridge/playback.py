@@ -59,11 +59,16 @@ class Player:
         self._at_s = 0.0
 
     def take(self, timeline: Timeline | None, now_s: float) -> None:
-        """Goes on on another timeline, where it is closest to where the eye is."""
+        """Goes on on another timeline, where it is closest to where the eye is; an end stays that end.
+
+        Whoever waits at the beginning waits for the walk from its beginning, however an edit has moved that.
+        """
         old, t_s = self.timeline, self.time(now_s)
         self.timeline = timeline if timeline is not None and len(timeline.t_s) else None
         if self.timeline is None:
             self.playing, t_s = False, 0.0
+        elif old is not None and not self.playing and t_s in (0.0, old.duration_s):
+            t_s = self.timeline.duration_s if t_s else 0.0
         elif old is not None:
             t_s = self.timeline.closest(old.sample(t_s)[0], t_s)
         self._set(t_s, now_s)

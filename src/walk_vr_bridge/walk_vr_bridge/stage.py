@@ -52,7 +52,10 @@ class Stage:
     def take(self, data: bytes) -> None:
         """Goes on on a new trajectory, given as CDR bytes; raises MessageError where it is not sound."""
         self._player.take(_timeline(data), time.monotonic())
-        self._show()
+        self._tell()
+        if self._player.playing:
+            # Otherwise nobody looks: a recording of edits would hold a camera path that jumps about.
+            self._view()
 
     def _play(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         now_s = time.monotonic()

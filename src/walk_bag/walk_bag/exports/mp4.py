@@ -38,7 +38,7 @@ def write_mp4(path: Path, ride: Ride, config: ExportConfig | None = None, progre
     try:
         writer = imageio_ffmpeg.write_frames(
             str(part), size, fps=config.fps, codec="libx264", pix_fmt_out="yuv420p", quality=None, macro_block_size=2,
-            output_params=_CODING,
+            output_params=_CODING, ffmpeg_log_level="error",
         )  # fmt: skip
         writer.send(None)
         try:

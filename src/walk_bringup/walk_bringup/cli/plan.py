@@ -138,7 +138,7 @@ def plan(
         brought = brought_keypoints(keypoints_file, camera_path, given.get("keypoints"))
         with _shown_progress(quiet) as progress:
             walkthrough = plan_walkthrough(building, out, config, progress, comparison=compare, given=brought)
-    for line in summary_lines(walkthrough, out, time.monotonic() - started):
+    for line in summary_lines(walkthrough, out, time.monotonic() - started, compare):
         print(line)
     return 0
 
@@ -167,7 +167,7 @@ def brought_keypoints(file: Path | None, camera_path: Path | None, count: int | 
     return camera_keypoints(camera_path) if camera_path is not None else None
 
 
-def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterator[str]:
+def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float, compared: bool) -> Iterator[str]:
     """Yields what the user reads at the end of a plan."""
     quality = walkthrough.quality
     entered = sum(visit.entered for visit in walkthrough.visits)
@@ -181,6 +181,8 @@ def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float) -> Iterat
     for warning in walkthrough.warnings:
         yield f"note       {warning}"
     yield f"results    {out} (planned in {seconds:.1f} s); open {out / 'report.html'}"
+    if compared:
+        yield f"comparison {out / 'compare.html'}: the walk without each part of the method"
 
 
 @contextmanager
