@@ -26,6 +26,23 @@ def test_started_one_after_the_other_is_heard_has_input(graph, observer):
     assert len(c.path_from_msg(observer.last("path")).positions) > 10
 
 
+def test_a_misspelt_parameter_is_said_and_the_node_goes_on(graph, observer):
+    began_ns = time.time_ns()
+    if "trajopt" in graph.processes:
+        graph.kill("trajopt")
+    graph.start("trajopt", "trajopt.weight_lenght:=1.0", "misspelt:=1")
+    heard = observer.heard["/diagnostics"]
+    observer.wait(
+        lambda: any(
+            c.stamp_from_msg(m.header.stamp) > began_ns and s.name == "walk/trajopt" for m in heard for s in m.status
+        ),
+        "the node to go on",
+    )
+    log = graph.log("trajopt")
+    assert "no parameter trajopt.weight_lenght, so it changes nothing; did you mean trajopt.weight_length?" in log
+    assert "no parameter misspelt, so it changes nothing" in log
+
+
 @pytest.mark.parametrize("order", list(itertools.permutations(NODES)), ids="-".join)
 def test_every_order_of_starts_ends_in_the_same_walk(rooms, tmp_path, other_domain, order):
     graph, watching = Graph(other_domain, tmp_path, rooms), Observer(other_domain)

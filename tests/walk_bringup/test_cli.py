@@ -76,6 +76,7 @@ def test_every_command_in_the_overview_exists() -> None:
         (["up", "--frobnicate"], "--frobnicate"),
         (["up", "--keypoints-file", "missing.csv"], "missing.csv: cannot be read: No such file"),
         (["run", "walk_nothing", "x"], "there is no package 'walk_nothing'"),
+        (["run", "walk_trajopt", "trajopt", "-p", "a:=1"], "./walk run walk_trajopt trajopt --ros-args -p a:=1"),
     ],
 )
 def test_user_errors_are_one_sentence_and_code_2(

@@ -14,7 +14,7 @@ from rclpy.parameter import Parameter
 from walk_building.config import Config, param
 from walk_building.errors import ParameterError
 from walk_building.walker import Walker
-from walk_ros.parameters import ConfigParameters, describe
+from walk_ros.parameters import ConfigParameters, describe, unknown_overrides
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,3 +129,19 @@ def test_open_ranges_take_any_value_on_their_open_side(make):
     assert node.set_parameters([Parameter("one.open_end", value=1e12)])[0].successful
     assert parameters.get("one", Settings).open_end == 1e12
     assert not node.set_parameters([Parameter("one.open_end", value=-1.0)])[0].successful
+
+
+def test_what_was_given_and_is_not_there_is_told_with_the_nearest():
+    declared = ["building", "load.units_m", "timing.speed_mps", "trajopt.weight_length", "use_sim_time"]
+
+    def told(*given, typed=()):
+        arguments = ["node", "--ros-args", *(part for name in typed for part in ("-p", f"{name}:=1"))]
+        return dict(unknown_overrides([*given, *(name.rpartition(":")[2] for name in typed)], declared, arguments))
+
+    assert told("building", "timing.speed_mps", "qos_overrides./clock.depth") == {}
+    assert told("trajopt.weight_lenght") == {"trajopt.weight_lenght": "trajopt.weight_length"}
+    assert told(typed=["speed_mps"]) == {"speed_mps": "timing.speed_mps"}
+    assert told("timing.zzz") == {"timing.zzz": ""}
+    # Said to all nodes in a file: it may be another's. Typed, it is meant for this one.
+    assert told("sequencer.kicks") == {}
+    assert told(typed=["trajopt:sequencer.kicks"]) == {"sequencer.kicks": ""}

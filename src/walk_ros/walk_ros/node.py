@@ -7,6 +7,7 @@ from __future__ import annotations
 import gc
 import importlib
 import logging
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -26,7 +27,7 @@ from walk_building.walker import Walker
 from walk_ros.diagnostics import Diagnostics, error_code
 from walk_ros.errors import MessageError
 from walk_ros.log import forward_logging
-from walk_ros.parameters import ConfigParameters
+from walk_ros.parameters import ConfigParameters, unknown_overrides
 from walk_ros.qos import latched
 from walk_ros.side_node import SideNode
 from walk_ros.topics import NAMESPACE, TOPICS
@@ -84,10 +85,17 @@ class WalkNode(Node):
 
     def start(self) -> None:
         """Starts the threads; the last thing a subclass's constructor does."""
+        self._warn_of_unknown_parameters()
         self.worker.start()
         if self._aside is not None:
             self._aside.start()
         self.worker.wake()
+
+    def _warn_of_unknown_parameters(self) -> None:
+        declared = sorted(self._parameters)
+        for name, near in unknown_overrides(self._parameter_overrides, declared, sys.argv):
+            hint = f"did you mean {near}?" if near else "ros2 param list, or ./walk params, lists what it has"
+            self.get_logger().warning(f"there is no parameter {name}, so it changes nothing; {hint}")
 
     def work(self, building: Building) -> None:
         """Does what the newest input asks for, in the worker's thread."""

@@ -5,9 +5,11 @@
 from __future__ import annotations
 
 import dataclasses
+import difflib
+import itertools
 import math
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterType, SetParametersResult
@@ -112,6 +114,33 @@ class ConfigParameters:
             self._configs = configs
         if changed:
             self._on_change(changed)
+
+
+def unknown_overrides(
+    given: Iterable[str], declared: Sequence[str], arguments: Sequence[str]
+) -> Iterator[tuple[str, str]]:
+    """Yields the names of parameters that a node was given and does not have, with the nearest that it has, or "".
+
+    ROS drops them without a word. What a file says to all nodes may be meant for another: unless it nearly is one of
+    this node's, it counts only where the command line has it.
+
+    Args:
+        given: Names of all that were given, in files and on the command line.
+        declared: Names of all that the node has.
+        arguments: The command line.
+    """
+    groups = {name.partition(".")[0] for name in declared}
+    values = itertools.pairwise(arguments)
+    named = {value.partition(":=")[0].rpartition(":")[2] for flag, value in values if flag in ("-p", "--param")}
+    for name in sorted(set(given) - set(declared)):
+        if name.startswith("qos_overrides."):
+            continue
+        near = difflib.get_close_matches(name, declared, 1)
+        if not near:  # the field alone, written without its group
+            fields = {known.rpartition(".")[2]: known for known in declared}
+            near = [fields[field] for field in difflib.get_close_matches(name.rpartition(".")[2], fields, 1)]
+        if name in named or near or name.partition(".")[0] in groups:
+            yield name, near[0] if near else ""
 
 
 def _number(default: Any, value: Any) -> Any:

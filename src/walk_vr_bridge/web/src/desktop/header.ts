@@ -8,7 +8,7 @@ import type { IconName } from "../panel/icons";
 import type { XrEntry } from "../xr/session";
 import type { ViewpointName } from "./viewpoint";
 
-const VIEWS: readonly { name: ViewpointName; label: string; icon: IconName; hint: string }[] = [
+export const VIEWS: readonly { name: ViewpointName; label: string; icon: IconName; hint: string }[] = [
   { name: "orbit", label: "Around", icon: "cube", hint: "Look at the building from outside (1)" },
   { name: "plan", label: "Plan", icon: "plan", hint: "A storey from above (2)" },
   { name: "walk", label: "Walk", icon: "walk", hint: "Walk through it (3)" },

@@ -39,7 +39,7 @@ const GROUPS: readonly Group[] = [
   },
   {
     id: "timing",
-    title: "Walk",
+    title: "Pace",
     sliders: {
       "timing.speed_mps": "Speed",
       "timing.max_turn_rate_radps": "Fastest turn",

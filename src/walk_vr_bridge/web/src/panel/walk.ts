@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
-/** The Walk tab: playback and comfort. */
+/** The Play tab: playback and comfort. "Walk" is the view in which one walks by oneself. */
 
 import type { Actions } from "../client/actions";
 import type { Hand, SettingsState, State } from "../client/state";

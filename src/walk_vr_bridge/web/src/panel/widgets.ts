@@ -145,6 +145,6 @@ export const TABS: readonly Tab[] = [
   { id: "tour", label: "Tour", icon: "route" },
   { id: "view", label: "View", icon: "eye" },
   { id: "tune", label: "Tune", icon: "tune" },
-  { id: "walk", label: "Walk", icon: "play" },
+  { id: "walk", label: "Play", icon: "play" },
   { id: "study", label: "Study", icon: "study" },
 ];
