@@ -152,5 +152,6 @@ def _parameters(walkthrough: Walkthrough) -> list[dict[str, Any]]:
     groups: dict[str, list[tuple[PlanOption, str]]] = {}
     for option in plan_options():
         value = getattr(getattr(walkthrough.config, option.section), option.field.name)
-        groups.setdefault(option.section, []).append((option, wording.setting(value, cast(Any, option.field.default))))
+        text = wording.setting(value, cast(Any, option.field.default), option.field.metadata["unit"])
+        groups.setdefault(option.section, []).append((option, text))
     return [{"name": headings[section], "options": options} for section, options in groups.items()]

@@ -33,12 +33,12 @@ def centimetres(value: float) -> str:
     return f"{100 * value:.1f} cm" if value < 0.1 else f"{100 * value:.0f} cm"
 
 
-def setting(value: bool | float | str, default: bool | float | str) -> str:
+def setting(value: bool | float | str, default: bool | float | str, unit: str = "") -> str:
     """Returns the value of an option as a client reads it: long patterns are for programs and stand in report.json."""
     if isinstance(value, bool):
         return "yes" if value else "no"
     if not isinstance(value, str):
-        return f"{value:g}"
+        return f"{value:g}°" if unit == "deg" else f"{value:g} {unit}".rstrip()
     if len(value) > _LONGEST_SETTING:
         return "usual names" if value == default else "names of one's own"
     return value or "–"
