@@ -12,7 +12,7 @@ import trimesh
 from room_scores import SAMPLE, described, room_score
 from scenes import box, building_of, shell, stair, two_rooms
 
-from walk_building import Building, load_building
+from walk_building import Building, Walker, load_building
 from walk_building.loaders import load_model
 
 
@@ -34,6 +34,26 @@ def test_rooms_are_parted_by_doorways_and_by_what_hangs_over_openings(gap_m: flo
     building = building_of(wall_with_gap(gap_m, lintel_m=lintel_m))
     assert [round(r.area_m2) for r in building.rooms] == pytest.approx([12, 12], abs=2)
     assert room_at(building, 1, 1) != room_at(building, 7, 3)
+
+
+def test_rooms_too_narrow_for_the_walker_are_there_with_that_reason() -> None:
+    # A room of 4 x 4 m behind a door of 0.9 m, and behind the next one a closet 1 m deep.
+    closet = [*wall_with_gap(0.9, lintel_m=2.1), box((7.0, 0, 0), (7.2, 1.5, 3)), box((7.0, 2.4, 0), (7.2, 4, 3))]
+    usual = building_of(closet)
+    assert [room.reachable for room in usual.rooms] == [True] * 3 and not len(usual.narrow_floor)
+    wide = building_of(closet, walker=Walker(radius_m=0.6))
+    assert sorted(room.reason for room in wide.rooms) == [
+        "", "the way there is too narrow for a walker 1.2 m wide", "too narrow for a walker 1.2 m wide",
+    ]  # fmt: skip
+    assert len({room.name for room in wide.rooms}) == 3
+    assert len(wide.narrow_floor) == np.count_nonzero(usual.reachable)
+    assert sum(len(room.places) for room in wide.rooms) == np.count_nonzero(wide.surface.room >= 0)
+
+
+def test_a_room_that_only_its_door_keeps_a_wide_walker_from_says_so() -> None:
+    large = [*shell(16.2, 8.0), box((8.0, 0, 0), (8.2, 3.5, 3)), box((8.0, 4.4, 0), (8.2, 8, 3))]
+    (reason,) = {room.reason for room in building_of(large, walker=Walker(radius_m=0.6)).rooms} - {""}
+    assert reason == "the way there is too narrow for a walker 1.2 m wide"
 
 
 def test_a_beam_parts_nothing() -> None:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
 import re
 import struct
@@ -23,8 +24,12 @@ from walk_bag.exports.resample import resample
 from walk_bag.exports.shapes import tube
 from walk_bag.exports.trajectory_csv import write_trajectory_csv
 from walk_bag.imports import recorded_building
+from walk_plan.drawing.floor import storey_bounds
+from walk_plan.options import plan_config, plan_options
 from walk_plan.outputs import ride_of, write_tour_bag
+from walk_plan.pipeline import make_walkthrough
 from walk_plan.report import write_report
+from walk_plan.stages import StageClock
 from walk_plan.summary import as_plain, summary
 from walk_plan.walkthrough import Walkthrough
 
@@ -182,6 +187,25 @@ def test_report_is_one_file_that_names_every_room_and_asks_for_nothing(
     for word in ("collisions", "Length", "Rooms entered", "Curve through the viewpoints", "Order by spanning tree"):
         assert word in text
     assert not re.search(r"\bnan\b|None", text)
+
+
+def test_the_plan_for_a_wide_walker_shows_the_whole_storey_and_lists_every_room(
+    walkthrough: Walkthrough, rooms_file: Path, tmp_path: Path
+) -> None:
+    wide = make_walkthrough(rooms_file, plan_config({"radius": 0.6}), StageClock(lambda stage, fraction: None))
+    for ours, usual in zip(storey_bounds(wide.building, 0), storey_bounds(walkthrough.building, 0), strict=True):
+        np.testing.assert_allclose(ours, usual, atol=0.11)
+    assert len(wide.visits) == len(walkthrough.visits) == 2
+    write_report(tmp_path / "report.html", wide, summary(wide))
+    assert "The way there is too narrow for a walker 1.2 m wide" in (tmp_path / "report.html").read_text("utf-8")
+
+
+def test_every_setting_in_the_report_has_a_meaning_and_a_unit(walkthrough: Walkthrough, tmp_path: Path) -> None:
+    write_report(tmp_path / "report.html", walkthrough, summary(walkthrough))
+    page = html.unescape((tmp_path / "report.html").read_text("utf-8"))
+    for name, value in (("radius", "0.25 m"), ("max slope", "40°"), ("speed", "1.4 m/s"), ("begin", "entrance")):
+        (option,) = (option for option in plan_options() if option.name == name.replace(" ", "-"))
+        assert f"<dt>{name}<small>{option.field.metadata['doc']}</small></dt><dd>{value}</dd>" in page
 
 
 def test_report_escapes_what_the_building_brings(walkthrough: Walkthrough, tmp_path: Path) -> None:

@@ -45,6 +45,8 @@ class Building:
     hash: str  # of the file, the load options and the walker, hex
     warnings: tuple[str, ...]  # sentences for the user
     closed_doors: tuple[ClosedDoor, ...] = ()  # leaves that look like closed doors, where the file names no door
+    # (M, 3) where a walker of the usual width stands, for one who is wider; empty for all others
+    narrow_floor: NDArray[np.float64] = dataclasses.field(default_factory=lambda: np.empty((0, 3)))
 
     def to_file(self, points: ArrayLike) -> NDArray[np.float64]:
         """Returns points (N, 3) in the file's own coordinates, in metres and z up."""

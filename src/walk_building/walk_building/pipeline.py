@@ -28,6 +28,7 @@ from walk_building.indoors import (
 )
 from walk_building.loaders import load_model
 from walk_building.model import LoadOptions, Model
+from walk_building.narrow import usual_width, with_narrow_rooms
 from walk_building.partition import partition
 from walk_building.progress import Progress, no_progress
 from walk_building.raster import Columns, Hits, cast_columns
@@ -73,6 +74,17 @@ def prepare_building(model: Model, options: LoadOptions, walker: Walker) -> Buil
     geometry = Geometry(model.vertices, model.faces)
     columns = Columns.over(geometry.bounds, CELL_M)
     hits = cast_columns(columns, model.vertices, model.faces)
+    building = _prepared(model, options, walker, geometry, columns, hits)
+    usual = usual_width(walker)
+    if usual == walker:
+        return building
+    return with_narrow_rooms(building, _prepared(model, options, usual, geometry, columns, hits))
+
+
+def _prepared(
+    model: Model, options: LoadOptions, walker: Walker, geometry: Geometry, columns: Columns, hits: Hits
+) -> Building:
+    """Returns the building as a walker finds it."""
     places, column_start = standing_places(geometry, walker, columns, hits)
     if len(places) == 0:
         raise BuildingError(model.source, _no_floor(model, walker))

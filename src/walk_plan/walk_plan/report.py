@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from walk_building.building import Room
+from walk_building.storeys import storey_of
 from walk_plan import wording
 from walk_plan.drawing import style
 from walk_plan.drawing.floor import shown_places
@@ -101,7 +102,8 @@ def shown_storeys(walkthrough: Walkthrough) -> list[int]:
     """Returns the storeys with something to show, lowest first: a floor inside the building, or a piece of the walk."""
     building = walkthrough.building
     inside = building.surface.storey[shown_places(building)]
-    found = set(np.unique(inside).tolist()) | {int(s) for s in walkthrough.profile.storey}
+    narrow = storey_of(building.storeys, building.narrow_floor[:, 2])
+    found = {*np.unique(inside).tolist(), *np.unique(narrow).tolist(), *map(int, walkthrough.profile.storey)}
     return sorted(storey for storey in found if storey >= 0)
 
 
