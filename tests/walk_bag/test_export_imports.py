@@ -145,7 +145,7 @@ def test_a_bag_without_a_walk_is_said(tmp_path: Path) -> None:
 def test_a_session_in_which_nobody_moved_is_said(tmp_path: Path, samples: int) -> None:
     ride = a_ride()
     still = dataclasses.replace(
-        ride, t_s=ride.t_s[:samples], quat_xyzw=ride.quat_xyzw[:samples], positions=np.zeros((samples, 3))
+        ride, t_s=ride.t_s[:samples], positions=np.zeros((samples, 3)), quat_xyzw=np.tile([0, 0, 0, 1.0], (samples, 1))
     )
     write_bag(tmp_path / "k.mcap", still, ("viewpoint",))
     with pytest.raises(BagError, match="no viewpoint that moves: nobody played"):

@@ -34,8 +34,8 @@ SOURCES = ("trajectory", "viewpoint")
 
 # Slower is standing.
 _STANDING_MPS = 0.02
-# Who has moved less has not walked.
-_MOVED_M = 0.01
+# A camera that has moved less [m], and turned less, was not looked through.
+_MOVED = 0.01
 
 
 def load_ride(bag: Path | str, source: str = "trajectory", namespace: str = "walk") -> Ride:
@@ -83,8 +83,8 @@ def _watched(
     bag: Path, views: list[tuple[int, Any]]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     poses = [viewpoint_from_msg(msg) for _, msg in views]
-    positions = np.array([p.positions[0] for p in poses]).reshape(-1, 3)
-    if len(views) < 2 or np.ptp(positions, axis=0).max() < _MOVED_M:
+    places = np.array([np.concatenate([p.positions[0], p.quat_xyzw[0]]) for p in poses]).reshape(-1, 7)
+    if len(views) < 2 or np.ptp(places, axis=0).max() < _MOVED:
         told = "no viewpoint" if not views else "no viewpoint that moves"
         raise BagError(
             bag,
@@ -92,7 +92,7 @@ def _watched(
             "./walk export takes with --from trajectory",
         )
     t_s = np.array([stamp - views[0][0] for stamp, _ in views]) / 1e9
-    return t_s, positions, np.vstack([p.quat_xyzw for p in poses])
+    return t_s, places[:, :3], places[:, 3:]
 
 
 def _standing(t_s: NDArray[np.float64], positions: NDArray[np.float64]) -> NDArray[np.bool_]:
