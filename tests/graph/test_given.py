@@ -104,6 +104,20 @@ def test_the_next_start_without_the_file_has_suggested_ones_again(graph, observe
     assert not np.isclose(found.positions[:, None], MINE[None], atol=1e-3).all(axis=2).any()
 
 
+def test_another_file_is_numbered_by_its_own_rows(graph, observer, tmp_path):
+    (tmp_path / "other.csv").write_text("x,y,z\n2,1.5,1.6\n6,3,1.6\n-30,2,1.6\n")
+    graph.kill("importance")
+    graph.kill("sequencer")
+    graph.start("sequencer", "editing.restore:=false")
+    graph.start("importance")
+    observer.wait(lambda: len(observer.state("sequencer").get("revision_ns", "")) > 1, "the suggested ones")
+    settled(observer)
+    graph.kill("importance")
+    graph.start("importance", f"keypoints_file:={tmp_path / 'other.csv'}")
+    observer.wait(lambda: "(-30.00, 2.00, 1.60) is left out" in graph.log("sequencer"), "the warning")
+    assert "suggested keypoint 3 at (-30.00, 2.00, 1.60) is left out" in graph.log("sequencer")
+
+
 def test_a_file_that_is_gone_is_said_by_the_node(graph, observer, parameter):
     graph.kill("importance")
     graph.start("importance", "keypoints_file:=/nowhere/mine.csv")

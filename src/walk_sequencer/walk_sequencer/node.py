@@ -165,10 +165,10 @@ class SequencerNode(WalkNode):
         keypoints, suggested = planned.keypoints, authority.keypoints.suggested
         found = misplaced(building, keypoints.positions, planned.tour, self._editing().pull_m)
         for row in sorted(found, key=lambda row: keypoints.ids[row]):
-            identity, what = keypoints.ids[row], found[row]
-            as_suggested = identity < len(suggested) and np.array_equal(suggested[identity], keypoints.positions[row])
-            name = f"suggested keypoint {identity + 1}" if as_suggested else f"keypoint {identity}"
-            if (sentence := f"{name} {what}") not in self._told:
+            # By its place: identities go on where keypoints are suggested anew.
+            same = np.flatnonzero((suggested == keypoints.positions[row]).all(axis=1))
+            name = f"suggested keypoint {same[0] + 1}" if len(same) else f"keypoint {keypoints.ids[row]}"
+            if (sentence := f"{name} {found[row]}") not in self._told:
                 self._told.add(sentence)
                 self.get_logger().warning(sentence)
 
