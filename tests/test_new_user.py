@@ -131,5 +131,5 @@ def test_a_session_is_edited_recorded_saved_exported_and_opened_again(user: User
         assert again.control_c() == 0
 
     with user.terminal("replay", "out/session", "--rate", "20") as replay:
-        replay.until(r"published \d\d+ messages")
+        replay.until(r"published (?:all|\d\d+ of) \d\d+ messages")
         assert replay.process.wait(LIMIT_S) == 0
