@@ -112,6 +112,18 @@ def test_a_straight_walk_leads_through_no_wall() -> None:
     assert surface.segment_walkable(middle, beyond, everywhere)
 
 
+def test_nearest_is_the_nearest_of_all_places() -> None:
+    surface = building_of(two_rooms()).surface
+    dice = np.random.default_rng(0)
+    low, high = surface.places.min(axis=0), surface.places.max(axis=0)
+    beside = surface.places[dice.integers(0, len(surface.places), 500)] + dice.normal(0.0, 0.2, (500, 3))
+    points = np.concatenate([dice.uniform(low - 3.0, high + 3.0, (500, 3)), beside, [(1e19, 0.0, 0.0)]])
+    gap = np.linalg.norm(surface.places[None] - points[:, None], axis=2)
+    found = surface.nearest(points)
+    assert np.array_equal(gap[np.arange(len(points)), found], gap.min(axis=1))
+    assert surface.nearest([(1e300, 0.0, 0.0)]) == [-1]  # farther than a distance can tell
+
+
 def test_clearance_is_the_distance_to_where_standing_ends() -> None:
     building = building_of(shell(6, 4))
     p = building.surface.nearest([(3, 2, 0)])[0]

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from walk_building.building import Building
-from walk_building.geometry import as_points
+from walk_building.errors import ParameterError
 
 
 def eye_over_floor(building: Building, point: ArrayLike) -> NDArray[np.float64]:
@@ -17,7 +19,9 @@ def eye_over_floor(building: Building, point: ArrayLike) -> NDArray[np.float64]:
     A hand lifts a keypoint off its height or lowers it; what it means is the place on the floor. Where nothing
     lies below within the height of a storey, the point is returned as it is.
     """
-    eye = as_points("point", np.array(point, dtype=np.float64)[None])[0]
+    eye = np.array(point, dtype=np.float64)
+    if eye.shape != (3,) or not all(map(math.isfinite, eye.tolist())):
+        raise ParameterError("point", eye.tolist(), "three finite coordinates in metres")
     drop = building.geometry.drop_below(*eye.tolist())
     if drop <= 2 * building.walker.eye_height_m:
         eye[2] += building.walker.eye_height_m - drop

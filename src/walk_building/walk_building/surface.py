@@ -14,7 +14,14 @@ from scipy.spatial import cKDTree
 
 from walk_building.geometry import as_points
 from walk_building.raster import Columns
-from walk_building.surface_kernels import Grid, edge_lengths, floor_planes, segment_walkable
+from walk_building.surface_kernels import (
+    NEAREST_RADIUS_M,
+    Grid,
+    edge_lengths,
+    floor_planes,
+    nearest_places,
+    segment_walkable,
+)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -72,14 +79,23 @@ class WalkableSurface:
         """
         query = as_points("points", points)
         if mask is None:
-            candidates, tree = None, self._tree
-        else:
-            candidates = np.flatnonzero(mask)
-            tree = cKDTree(self.places[candidates]) if len(candidates) else None
-        if tree is None or tree.n == 0:
+            return self._nearest_of_all(query)
+        candidates = np.flatnonzero(mask)
+        if not len(candidates):
             return np.full(len(query), -1)
-        found = tree.query(query)[1].astype(np.int64)
-        return found if candidates is None else candidates[found]
+        return candidates[cKDTree(self.places[candidates]).query(query)[1]]
+
+    def _nearest_of_all(self, query: NDArray[np.float64]) -> NDArray[np.int64]:
+        # Most points that anybody asks about are on the floor: a look into the columns around is a tenth of the tree's
+        # price there. Whoever is far from all places gets the tree.
+        found = np.empty(len(query), np.int64)
+        nearest_places(self.grid, query, NEAREST_RADIUS_M, found)
+        far = found < 0
+        if far.any() and self._tree.n:
+            gap, place = self._tree.query(query[far])
+            # So far that the square of the distance is no number: the tree returns no place.
+            found[far] = np.where(np.isfinite(gap), place, -1)
+        return found
 
     def floor_z(self, eyes: ArrayLike, eye_height_m: float) -> NDArray[np.float64]:
         """Returns the height of the floor under each eye (N, 3), smooth over the steps of a stair; nan: no floor."""

@@ -136,6 +136,40 @@ def nearest_place(grid, x, y, z, reach, radius):
 
 
 @numba.njit(cache=True, nogil=True)
+def nearest_places(grid, points, radius, out):
+    """Writes the place nearest in space to each point (N, 3), -1 where there is none within the radius."""
+    for n in range(len(points)):
+        out[n] = _nearest_in_space(grid, points[n, 0], points[n, 1], points[n, 2], radius)
+
+
+@numba.njit(cache=True, nogil=True)
+def _nearest_in_space(grid, x, y, z, radius):
+    u, v, reach = (x - grid.origin_x) / grid.cell, (y - grid.origin_y) / grid.cell, radius / grid.cell
+    # Also because a column's number has to be one that an integer holds.
+    if not (-reach <= u <= grid.nx + reach and -reach <= v <= grid.ny + reach):
+        return -1
+    i0, j0 = int(np.rint(u)), int(np.rint(v))
+    best, best_sq = -1, radius * radius
+    for ring in range(int(np.ceil(reach)) + 1):
+        # No column of this ring, or of one farther out, is nearer than half a cell less.
+        if ring > 0 and ((ring - 0.5) * grid.cell) ** 2 > best_sq:
+            break
+        for i in range(max(i0 - ring, 0), min(i0 + ring + 1, grid.nx)):
+            # Between its first and its last row, a ring has two columns in a row.
+            stride = 1 if abs(i - i0) == ring else 2 * ring
+            for j in range(j0 - ring, j0 + ring + 1, stride):
+                if j < 0 or j >= grid.ny:
+                    continue
+                c = i * grid.ny + j
+                for p in range(grid.start[c], grid.start[c + 1]):
+                    dx, dy, dz = grid.places[p, 0] - x, grid.places[p, 1] - y, grid.places[p, 2] - z
+                    square = dx * dx + dy * dy + dz * dz
+                    if square < best_sq:
+                        best, best_sq = p, square
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
 def segment_walkable(grid, mask, start, end, step):
     """Whether the straight line between two places crosses only squares with four standable corners.
 

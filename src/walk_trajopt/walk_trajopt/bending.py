@@ -130,6 +130,22 @@ def bent_points(x, firmness, old, arc, window, shift):
 
 
 @numba.njit(cache=True, nogil=True)
+def spliced(old, new, first, last):
+    """Returns sequences over the points with what is from `first` to `last` replaced: start, arc, x, firmness.
+
+    Args:
+        old: (n, 3), (n,), (n, 3), (n,).
+        new: (k, 3), (k,), (k, 3), (k,).
+        first: Index of the first that is replaced.
+        last: Of the last.
+    """
+    start = np.concatenate((old[0][:first], new[0], old[0][last + 1 :]))
+    arc = np.concatenate((old[1][:first], new[1], old[1][last + 1 :]))
+    x = np.concatenate((old[2][:first], new[2], old[2][last + 1 :]))
+    return start, arc, x, np.concatenate((old[3][:first], new[3], old[3][last + 1 :]))
+
+
+@numba.njit(cache=True, nogil=True)
 def _hat(at, window):
     """Returns 1 at the keypoint, falling to 0 at both ends of the window; 1 on a side that has no length."""
     low, here, high = window

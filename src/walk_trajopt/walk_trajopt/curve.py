@@ -65,12 +65,13 @@ def refine(
         The polyline (m, 3), which has all of `points` in it, and for each of its vertices the place among the points
         as a rising number (m,): 2.5 is halfway between points[2] and points[3].
     """
-    curve, place = _refined(np.ascontiguousarray(points), chord_error_m, exponent)
+    curve, place = refined(np.ascontiguousarray(points), chord_error_m, exponent)
     return curve, place
 
 
 @numba.njit(cache=True, nogil=True)
-def _refined(points, chord_error, exponent):
+def refined(points, chord_error, exponent):
+    """Returns what `refine` does, in compiled code."""
     n = len(points)
     knots = np.zeros(n)
     for i in range(n - 1):

@@ -7,6 +7,7 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
+from numpy.typing import NDArray
 
 from walk_building.building import Building
 from walk_trajopt.bending import FIRM
@@ -33,10 +34,13 @@ class Guard:
         """Returns whether the body passes along the whole way."""
         return not colliding(state.way, self._check, (float(state.arc_m[0]), float(state.arc_m[-1])))
 
-    def swept(self, state: State, first: int, last: int) -> tuple[State, Stretches]:
-        """Returns the state with its way drawn anew through points `first` to `last`, and where that collides."""
+    def swept(self, state: State, x: NDArray[np.float64], first: int, last: int) -> tuple[State, Stretches]:
+        """Returns the state with other points `x` (n, 3) from `first` to `last`, and where it collides.
+
+        Its way is drawn anew there.
+        """
         begin, end = _reach(state, first, last)
-        state = drawn(state, begin, end, self._chord_error_m)
+        state = drawn(state, x, begin, end, self._chord_error_m)
         return state, colliding(state.way, self._check, _window(state, first, last))
 
     def hopeless(self, state: State, touching: Stretches) -> Stretches:
@@ -60,12 +64,14 @@ class Guard:
             pieces: Solves again.
             config: For that.
         """
+        if not (touching or state.mended):
+            return state
         soft = [stretch for stretch in touching if not _is_firm(state, stretch)]
         for stretch in soft:
             state = _eased(state, stretch, (first, last), pieces, config)
         eased = [Mended(start_m=a, end_m=b, free=True, how=_EASED) for a, b in soft]
         if eased:
-            state, touching = self.swept(state, first, last)
+            state, touching = self.swept(state, state.x, first, last)
         way, mended = repair(state.way, state.tour, state.keypoint_m, state.pins(), self._check, touching)
         eased = [e for e in eased if not any(_meet(m, e) for m in mended)]
         kept = [m for m in state.mended if _stays(m, state, first, last) and not any(_meet(m, e) for e in eased)]

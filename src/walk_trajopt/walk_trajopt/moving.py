@@ -91,7 +91,7 @@ class Mover:
         if not move.hasty:
             state = state.relaxed(first, last)
         solution = self._pieces.solve(state, first, last, self._hasty if move.hasty else self._config)
-        state, touching = self._guard.swept(dataclasses.replace(state, x=solution.x), first, last)
+        state, touching = self._guard.swept(state, solution.x, first, last)
         hopeless = self._guard.hopeless(state, touching)
         return Moved(state=state, touching=touching, hopeless=hopeless, solution=solution)
 

@@ -139,7 +139,7 @@ class Optimiser:
             raise ParameterError("keypoint", keypoint, f"an index below {len(self.state.keypoints)}")
         if self.state.pinned[keypoint]:
             return self._refused("the keypoint is locked")
-        eye = self._on_floor(as_polyline_points("position", np.reshape(position, (-1, 3)), at_least=1))
+        eye = self._on_floor(as_polyline_points("position", np.reshape(position, (1, 3)), at_least=1))
         if not np.isfinite(eye).all():
             return self._refused("there is no floor below the new place")
         before, after = (None if leg is None else as_polyline_points("leg", leg) for leg in (before, after))
@@ -151,7 +151,7 @@ class Optimiser:
         self._solution = moved.solution
         if hasty:
             # What each objective costs is not asked for in the middle of a drag.
-            self.state = dataclasses.replace(moved.state, terms={})
+            self.state = moved.state
             return EditOutcome(path=path_of(self.state, self._solution, self.config.solver), accepted=True, reason="")
         terms = self.pieces.spliced_terms(self.state, moved.state, *moved.state.window(keypoint))
         self.state = dataclasses.replace(moved.state, terms=terms)
@@ -208,9 +208,9 @@ class Optimiser:
         return initial_state(tour, stops, self._radii(stops), pinned, keypoint_arcs(tour, stops), n)
 
     def _on_floor(self, eyes: NDArray[np.float64]) -> NDArray[np.float64]:
-        height = self._building.walker.eye_height_m
-        floor = self._building.surface.floor_z(eyes, height)
-        return np.column_stack([eyes[:, :2], floor + height])
+        height, eyes = self._building.walker.eye_height_m, eyes.copy()
+        eyes[:, 2] = self._building.surface.floor_z(eyes, height) + height
+        return eyes
 
     def _radii(self, keypoints: NDArray[np.float64]) -> NDArray[np.float64]:
         """Returns how near to each keypoint to pass: nearer where it has little room, or a small room were missed."""
@@ -223,5 +223,5 @@ class Optimiser:
 
     def _checked(self, state: State, first: int, last: int, config: TrajoptConfig) -> State:
         """Draws the curve through points `first` to `last` anew, sweeps the body along it and repairs it."""
-        state, touching = self._guard.swept(state, first, last)
+        state, touching = self._guard.swept(state, state.x, first, last)
         return self._guard.mended(state, first, last, touching, self.pieces, config)

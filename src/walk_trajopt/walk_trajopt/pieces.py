@@ -44,8 +44,9 @@ class Pieces:
         low, high = around(state, first, last)
         fixed = np.ones(high - low, bool)
         fixed[first + 1 - low : last - low] = False
-        pins = state.keypoint_index[state.pinned] - low
-        fixed[pins[(pins >= 0) & (pins < high - low)]] = True
+        if state.pinned.any():
+            pins = state.keypoint_index[state.pinned] - low
+            fixed[pins[(pins >= 0) & (pins < high - low)]] = True
         setting, before = self._setting(state, low, high), self._recent.get(high - low)
         problem = Problem(setting, config, fixed, state.firmness[low:high], before)
         self._keep(problem)

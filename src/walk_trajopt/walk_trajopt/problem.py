@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+import itertools
 
 import numba
 import numpy as np
@@ -66,23 +68,25 @@ class Problem:
         """
         self.setting = setting
         self.fixed = fixed
-        self._objectives: dict[str, tuple[float, Objective]] = {
-            name: (config.weight(name), kind(setting)) for name, kind in OBJECTIVES.items() if config.weight(name) > 0.0
-        }
-        self._names = {objective: name for name, (_, objective) in self._objectives.items()}
-        self._pointwise = [(w, o) for w, o in self._objectives.values() if isinstance(o, PointwiseObjective)]
+        self._objectives: dict[str, tuple[float, Objective]] = {}
+        self._pointwise: list[tuple[str, float, PointwiseObjective]] = []
+        self._quadratic: list[tuple[float, QuadraticObjective]] = []
         known = {} if before is None else before._objectives
-        for name, (_, objective) in self._objectives.items():
-            if name in known and isinstance(objective, PointwiseObjective):
-                objective.learn_from(known[name][1])
-        self.first = np.cumsum([0, *(o.pieces for _, o in self._pointwise)])
+        for name, weight, kind in _that_count(config):
+            objective = kind(setting)
+            self._objectives[name] = weight, objective
+            if isinstance(objective, QuadraticObjective):
+                self._quadratic.append((weight, objective))
+            elif isinstance(objective, PointwiseObjective):
+                self._pointwise.append((name, weight, objective))
+                if name in known:
+                    objective.learn_from(known[name][1])
+        self.first, self._spans = _firsts(tuple([o.pieces for _, _, o in self._pointwise]))
         self.scale = np.empty((len(setting.start), len(self._pointwise)))
-        self.scale[:] = [w * setting.spacing_m for w, _ in self._pointwise]
-        if firmness is not None:
-            for k, (_, objective) in enumerate(self._pointwise):
-                if isinstance(objective, Clearance):
-                    self.scale[:, k] *= firmness
-        self._quadratic = [(w, o) for w, o in self._objectives.values() if isinstance(o, QuadraticObjective)]
+        for k, (_, weight, objective) in enumerate(self._pointwise):
+            self.scale[:, k] = weight * setting.spacing_m
+            if firmness is not None and isinstance(objective, Clearance):
+                self.scale[:, k] *= firmness
         self._sum_up(before)
 
     def _sum_up(self, before: Problem | None) -> None:
@@ -117,7 +121,7 @@ class Problem:
     def evaluate(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         """Returns the cost at points `x` (n, 3) and its gradient (n, 3), which is zero at fixed points."""
         value, gradient = self._evaluate_quadratic(x)
-        for scale, (_, objective) in zip(self.scale.T, self._pointwise, strict=True):
+        for scale, (_, _, objective) in zip(self.scale.T, self._pointwise, strict=True):
             residual, jacobian = objective.residuals(x)
             value += float(scale @ residual**2)
             gradient += 2.0 * (scale * residual)[:, None] * jacobian
@@ -127,9 +131,9 @@ class Problem:
     def linearise(self, x: NDArray[np.float64]) -> Local:
         """Returns the cost at points `x` (n, 3), and what it is made of."""
         value, gradient = self._evaluate_quadratic(x)
-        shape = len(x), int(self.first[-1])
+        shape = len(x), self._spans[-1][1] if self._spans else 0
         values, slopes, bends = np.empty(shape), np.empty((*shape, 3)), np.empty(shape)
-        for (_, objective), a, b in zip(self._pointwise, self.first[:-1], self.first[1:], strict=True):
+        for (_, _, objective), (a, b) in zip(self._pointwise, self._spans, strict=True):
             objective.write_pieces(x, values[:, a:b], slopes[:, a:b], bends[:, a:b])
         value += sum_of_squares(values, self.first, self.scale)
         return Local(x=x, value=value, gradient=gradient, values=values, slopes=slopes, bends=bends)
@@ -146,14 +150,28 @@ class Problem:
             if isinstance(objective, QuadraticObjective)
         }
         h = self.setting.spacing_m
-        for (weight, objective), a, b in zip(self._pointwise, self.first[:-1], self.first[1:], strict=True):
+        for (name, weight, _), (a, b) in zip(self._pointwise, self._spans, strict=True):
             largest = local.values[:, a:b].max(axis=1)
-            out[self._names[objective]] = weight * h * np.where(largest > -np.inf, largest, 0.0) ** 2
+            out[name] = weight * h * np.where(largest > -np.inf, largest, 0.0) ** 2
         return out
 
     def _evaluate_quadratic(self, x: NDArray[np.float64]) -> tuple[float, NDArray[np.float64]]:
         value, gradient = _quadratic_form(self.bands, self._linear, x)
         return value + self._constant, gradient
+
+
+@functools.lru_cache(maxsize=16)
+def _that_count(config: TrajoptConfig) -> tuple[tuple[str, float, type[Objective]], ...]:
+    """Returns the objectives that have a weight: names, weights and kinds."""
+    weighted = ((name, config.weight(name), kind) for name, kind in OBJECTIVES.items())
+    return tuple(entry for entry in weighted if entry[1] > 0.0)
+
+
+@functools.lru_cache(maxsize=16)
+def _firsts(pieces: tuple[int, ...]) -> tuple[NDArray[np.int64], list[tuple[int, int]]]:
+    """Returns where each objective's pieces begin (G + 1,), and where they begin and end."""
+    first = np.cumsum([0, *pieces])
+    return first, list(itertools.pairwise(first.tolist()))
 
 
 @numba.njit(cache=True, nogil=True)

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from walk_trajopt.blending import blended
 from walk_trajopt.check import PathCheck, colliding_runs
 from walk_trajopt.polyline import Polyline
+from walk_trajopt.redraw import SAME_M, replaced
 
 _GAP_M = 0.5  # colliding stretches closer than a step are mended as one
-_SAME_M = 2e-6  # arc lengths are rounded to micrometres, so that no two points are nearly one
 _RAMPS_M = (0.5, 1.0, 2.0, 4.0, 8.0)  # over which a stretch goes over into its neighbours
 
 
@@ -31,18 +31,14 @@ class Way:
 
     def between(self, low_m: float, high_m: float) -> Way:
         """Returns the piece whose arc lengths on the tour are from `low_m` to `high_m`."""
-        begin = self.tour_m.searchsorted(low_m - _SAME_M)
-        end = self.tour_m.searchsorted(high_m + _SAME_M, side="right")
+        begin = self.tour_m.searchsorted(low_m - SAME_M)
+        end = self.tour_m.searchsorted(high_m + SAME_M, side="right")
         return Way(points=self.points[begin:end], tour_m=self.tour_m[begin:end])
 
     def replaced(self, piece: Way) -> Way:
         """Returns the way with what lies between the ends of `piece` replaced by it."""
-        before = self.tour_m.searchsorted(piece.tour_m[0] - _SAME_M)
-        after = self.tour_m.searchsorted(piece.tour_m[-1] + _SAME_M, side="right")
-        return Way(
-            points=np.concatenate([self.points[:before], piece.points, self.points[after:]]),
-            tour_m=np.concatenate([self.tour_m[:before], piece.tour_m, self.tour_m[after:]]),
-        )
+        points, tour_m = replaced((self.points, self.tour_m), (piece.points, piece.tour_m))
+        return Way(points=points, tour_m=tour_m)
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

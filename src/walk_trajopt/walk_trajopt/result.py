@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 
 from walk_trajopt.path import OptimisedPath, Stretch, read_only
@@ -22,12 +23,9 @@ def path_of(state: State, solution: Solution, solver: str) -> OptimisedPath:
     """
     points, tour_m = state.way.points, state.way.tour_m
     stretches = _stretches(state)
-    after = np.minimum(tour_m.searchsorted(state.keypoint_m), len(tour_m) - 1)
-    before = np.maximum(after - 1, 0)
-    nearer = state.keypoint_m - tour_m[before] < tour_m[after] - state.keypoint_m
     return OptimisedPath(
         points=read_only(points),
-        keypoint_index=np.where(nearer, before, after),
+        keypoint_index=_nearest_each(tour_m, state.keypoint_m),
         cost=state.cost,
         iterations=solution.iterations,
         evaluations=solution.evaluations,
@@ -35,6 +33,17 @@ def path_of(state: State, solution: Solution, solver: str) -> OptimisedPath:
         repaired=tuple(stretch for stretch, free in stretches if free),
         colliding=tuple(stretch for stretch, free in stretches if not free),
     )
+
+
+@numba.njit(cache=True, nogil=True)
+def _nearest_each(rising, wanted):
+    """Returns for each of `wanted` (M,) the index of the nearest of rising numbers (n,)."""
+    out = np.empty(len(wanted), np.int64)
+    for k in range(len(wanted)):
+        after = min(np.searchsorted(rising, wanted[k]), len(rising) - 1)
+        before = max(after - 1, 0)
+        out[k] = before if wanted[k] - rising[before] < rising[after] - wanted[k] else after
+    return out
 
 
 def _stretches(state: State) -> list[tuple[Stretch, bool]]:

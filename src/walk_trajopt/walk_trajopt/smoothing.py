@@ -26,9 +26,23 @@ def gaussian(values, sigma):
 
 
 @numba.njit(cache=True, nogil=True)
+def _of_three(values, rim):
+    """Returns what `box` does for no whole neighbour: without a running sum, which would have to wait for itself."""
+    last, scale = len(values) - 1, 1.0 / (1.0 + 2.0 * rim)
+    out = np.empty(len(values))
+    out[0] = (values[0] + rim * (values[0] + values[min(1, last)])) * scale
+    for i in range(1, last):
+        out[i] = (values[i] + rim * (values[i - 1] + values[i + 1])) * scale
+    out[last] = (values[last] + rim * (values[max(last - 1, 0)] + values[last])) * scale
+    return out
+
+
+@numba.njit(cache=True, nogil=True)
 def box(values, half, rim):
     """Returns the mean (n,) over `half` neighbours on both sides, the next ones beyond counting `rim` as much."""
     width, n = 2 * half + 1, len(values)
+    if half == 0:
+        return _of_three(values, rim)
     # With the ends drawn out there is nothing to ask at each value; the rims are at `i` and at `i + width + 1`.
     padded, out = np.empty(n + width + 1), np.empty(n)
     padded[: half + 1], padded[half + 1 : half + 1 + n], padded[half + 1 + n :] = values[0], values, values[-1]

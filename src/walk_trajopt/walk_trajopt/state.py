@@ -9,9 +9,9 @@ import dataclasses
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_trajopt.bending import bent_arcs, bent_points, bent_tour
-from walk_trajopt.curve import refine
+from walk_trajopt.bending import bent_arcs, bent_points, bent_tour, spliced
 from walk_trajopt.polyline import Polyline
+from walk_trajopt.redraw import redrawn
 from walk_trajopt.repair import Mended, Way
 from walk_trajopt.resample import resample
 
@@ -111,14 +111,10 @@ def around(state: State, first: int, last: int) -> tuple[int, int]:
     return max(first + 1 - _BESIDE, 0), min(last + _BESIDE, len(state.x))
 
 
-def drawn(state: State, begin: int, end: int, chord_error_m: float) -> State:
-    """Returns the state with its way drawn anew between two points, without the check."""
-    # Two more points on both sides give the drawn piece the tangents that it has within the whole.
-    a, b = max(begin - 2, 0), min(end + 3, len(state.x))
-    curve, place = refine(state.x[a:b], chord_error_m)
-    fresh = Way(points=curve, tour_m=np.interp(place, np.arange(b - a), state.arc_m[a:b]))
-    piece = fresh.between(float(state.arc_m[begin]), float(state.arc_m[end]))
-    return dataclasses.replace(state, way=state.way.replaced(piece))
+def drawn(state: State, x: NDArray[np.float64], begin: int, end: int, chord_error_m: float) -> State:
+    """Returns the state with optimised points `x` (n, 3), its way drawn anew between two of them, without the check."""
+    points, tour_m = redrawn((state.way.points, state.way.tour_m), x, state.arc_m, (begin, end), chord_error_m)
+    return dataclasses.replace(state, x=x, way=Way(points=points, tour_m=tour_m))
 
 
 def bent(
@@ -129,7 +125,7 @@ def bent(
     legs: Legs,
     spacing_m: float,
 ) -> State:
-    """Returns the state with one keypoint moved and the legs beside it bent, or replaced by newly planned ones.
+    """Returns the state, without terms, with a keypoint moved and the legs beside it bent, or replaced by planned ones.
 
     A leg is bent by moving its points along, fully at the keypoint and not at all at its other end; so are the
     optimised points, from where the optimiser then goes on.
@@ -153,19 +149,18 @@ def bent(
     keypoints, radii = state.keypoints.copy(), state.radius_m.copy()
     keypoints[keypoint], radii[keypoint] = position, radius_m
 
-    def spliced(all_old: NDArray[np.float64], new: NDArray[np.float64]) -> NDArray[np.float64]:
-        return np.concatenate([all_old[:first], new, all_old[last + 1 :]])
-
+    whole = spliced((state.start, state.arc_m, state.x, state.firmness), (start, arc, x, firmness), first, last)
     return dataclasses.replace(
         state,
         tour=tour,
         keypoints=keypoints,
         radius_m=radii,
         keypoint_index=index,
-        start=spliced(state.start, start),
-        arc_m=spliced(state.arc_m, arc),
-        x=spliced(state.x, x),
-        firmness=spliced(state.firmness, firmness),
+        start=whole[0],
+        arc_m=whole[1],
+        x=whole[2],
+        firmness=whole[3],
+        terms={},
     )
 
 

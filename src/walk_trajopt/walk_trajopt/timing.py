@@ -128,7 +128,7 @@ def _trajectory(
 ) -> Trajectory:
     t_s, at_m = samples
     moving = clock.speed_mps, clock.acceleration_mps2
-    rows = _rows(points, arc_m, tangents(points, arc_m), float(clock.t_s[1]), moving, look, t_s, at_m)
+    rows = _rows(points, arc_m, float(clock.t_s[1]), moving, look, t_s, at_m)
     positions, velocities, accelerations, quat_xyzw, stop = rows
     return Trajectory(
         t_s=read_only(t_s),
@@ -141,20 +141,19 @@ def _trajectory(
 
 
 @numba.njit(cache=True, nogil=True)
-def _rows(points, arc_m, tangent, tick_s, moving, look, t_s, at_m):
+def _rows(points, arc_m, tick_s, moving, look, t_s, at_m):
     """Returns positions, velocities, accelerations (m, 3), quaternions (m, 4) and stops (m,).
 
     Args:
         points: (n, 3) the path.
         arc_m: (n,) of each, rising.
-        tangent: (n, 3) direction at each.
         tick_s: Time between ticks.
         moving: (k,), (k,) speed and acceleration at each tick.
         look: (k,), (k,) yaw and pitch at each tick.
         t_s: (m,) rising.
         at_m: (m,) arc length at each time, rising.
     """
-    positions, direction = interpolate(at_m, arc_m, points), interpolate(at_m, arc_m, tangent)
+    positions, direction = interpolate(at_m, arc_m, points), interpolate(at_m, arc_m, tangents(points, arc_m))
     quat, stop = np.empty((len(t_s), 4)), np.empty(len(t_s), np.bool_)
     for i in range(len(t_s)):
         x, y, z = direction[i]

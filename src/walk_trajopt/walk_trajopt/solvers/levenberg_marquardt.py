@@ -53,7 +53,7 @@ def levenberg_marquardt(problem: Problem, x0: NDArray[np.float64], config: Trajo
         damping *= _response(gain, promised)
         damping = max(damping, _LEAST_DAMPING)
         if gain > 0.0:
-            x, here = x + step, there
+            x, here = there.x, there
         small = small + 1 if gain <= enough else 0
         if small >= _SMALL_ENDS:
             break
