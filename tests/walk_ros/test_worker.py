@@ -129,6 +129,17 @@ def test_an_error_of_a_short_step_is_reported():
 
 def test_input_that_is_not_urgent_is_served_all_the_same(bench):
     made = bench()
-    made.worker.wake(at_once=False)
+    made.worker.wake(rest_s=0.02)
+    assert not made.entered.acquire(timeout=0.01)
     made.wait_entered()
     made.go_on.release()
+
+
+def test_urgent_input_takes_along_what_may_wait(bench):
+    made = bench()
+    made.worker.wake(rest_s=LIMIT_S)
+    made.worker.wake()
+    made.worker.wake(rest_s=LIMIT_S)
+    assert made.entered.acquire(timeout=0.5 * LIMIT_S)
+    made.go_on.release()
+    assert not made.entered.acquire(timeout=0.1)

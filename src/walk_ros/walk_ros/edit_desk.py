@@ -27,9 +27,13 @@ from walk_ros.near_watch import NearWatch
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS
 from walk_ros.side_node import SideNode
+from walk_ros.worker import REST_S
 
 _ANSWER_S = 5.0
 """How long a service waits for what it asked for; then it says that the answer comes later."""
+
+_REST_S = {EditKind.DRAG: REST_S, EditKind.HOLD: REST_S, EditKind.RELEASE: 0.02}
+"""How long an edit waits that trajopt shows: it, bridge and page need the cores first, for a release until it is drawn."""
 
 
 @dataclasses.dataclass(slots=True, kw_only=True)
@@ -38,6 +42,7 @@ class Asked:
 
     edit: KeypointEdit
     came_s: float
+    due_s: float  # when it is worked on
     from_editor: bool = False  # whether it came over RViz's protocol
     answered: threading.Event = dataclasses.field(default_factory=threading.Event)
     refused: str = ""  # the reason, once it is answered
@@ -63,6 +68,16 @@ class EditDesk:
         self._services.offer(Trigger, "undo", lambda _request, response: self._change(Change.UNDO, response))
         self._services.offer(Trigger, "redo", lambda _request, response: self._change(Change.REDO, response))
         self._services.start()
+
+    def due(self) -> Asked | None:
+        """Returns the first edit that waits, once its time has come; None where there is none: the worker is woken for it."""
+        if not self.waiting:
+            return None
+        left_s = self.waiting[0].due_s - self._node.now_s()
+        if left_s <= 0:
+            return self.waiting[0]
+        self._node.worker.wake(rest_s=left_s)
+        return None
 
     def stop(self) -> None:
         """Ends the services."""
@@ -123,10 +138,11 @@ class EditDesk:
         self._say(name, edit.client_id, Outcome.REFUSED, reason, edit.stamp_ns)
 
     def _queue(self, edit: KeypointEdit, from_editor: bool = False) -> Asked:
-        asked = Asked(edit=edit, came_s=self._node.now_s(), from_editor=from_editor)
+        now_s, rest_s = self._node.now_s(), _REST_S.get(edit.kind, 0.0)
+        asked = Asked(edit=edit, came_s=now_s, due_s=now_s + rest_s, from_editor=from_editor)
         self.waiting.append(asked)
         # A drag is shown by trajopt, which needs the cores now; what is said about it here can follow.
-        self._node.worker.wake(at_once=edit.kind not in (EditKind.DRAG, EditKind.HOLD))
+        self._node.worker.wake(rest_s=rest_s)
         return asked
 
     def _change(self, change: Change, response: Trigger.Response) -> Trigger.Response:

@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
+import time
 from collections.abc import Callable
 
 _log = logging.getLogger(__name__)
@@ -34,8 +36,8 @@ class Worker:
         """
         self._step = step
         self._on_error = on_error
-        self._wake = threading.Event()
-        self._at_once = threading.Event()
+        self._wake = threading.Condition()
+        self._due_s = math.inf  # when the next step begins; inf where there is nothing new
         self._superseded = threading.Event()
         self._stopped = threading.Event()
         self._working = threading.Lock()
@@ -46,18 +48,18 @@ class Worker:
         """Starts the thread."""
         self._thread.start()
 
-    def wake(self, supersede: bool = False, *, at_once: bool = True) -> None:
+    def wake(self, supersede: bool = False, *, rest_s: float = 0.0) -> None:
         """Says that there is new input.
 
         Args:
             supersede: A running step ends at its next progress report.
-            at_once: Begin now; otherwise after `REST_S`, unless something urgent comes before.
+            rest_s: How long it may wait, unless something more urgent comes before.
         """
         if supersede:
             self._superseded.set()
-        if at_once:
-            self._at_once.set()
-        self._wake.set()
+        with self._wake:
+            self._due_s = min(self._due_s, time.monotonic() + rest_s)
+            self._wake.notify()
 
     def now(self, step: Callable[[], None]) -> None:
         """Runs a short step in the calling thread if the worker is at rest; otherwise only wakes the worker.
@@ -88,13 +90,13 @@ class Worker:
 
     def _run(self) -> None:
         while True:
-            self._wake.wait()
-            self._at_once.wait(REST_S)
+            with self._wake:
+                while (left_s := self._due_s - time.monotonic()) > 0:
+                    self._wake.wait(left_s if left_s < math.inf else None)
+                # Before the step reads its input: what comes in from here on wakes it again.
+                self._due_s = math.inf
             if self._stopped.is_set():
                 return
-            # Cleared before the step reads its input: what comes in from here on wakes it again.
-            self._wake.clear()
-            self._at_once.clear()
             with self._working:
                 self._superseded.clear()
                 self._attempt(self._step)

@@ -65,11 +65,11 @@ class SequencerNode(WalkNode):
             self._publish(authority)
             self._publish_legs(authority)
             self._tell_misplaced(building, authority)
-        before, waiting = self._view.revision_ns, self._desk.waiting
-        while waiting:
+        before = self._view.revision_ns
+        while (asked := self._desk.due()) is not None:
             # Taken off only once it is answered: a step that is superseded begins with it again.
-            self._answer(authority, waiting[0], config)
-            waiting.popleft()
+            self._answer(authority, asked, config)
+            self._desk.waiting.popleft()
         if self._view.revision_ns != before:
             self._publish_legs(authority)
         if not authority.keypoints.ids:

@@ -32,6 +32,10 @@ from walk_trajopt.path import OptimisedPath
 from walk_trajopt.trajectory import Trajectory
 
 
+REFINE_S = 0.03
+"""How long a release is shown as a drag is, before it is solved in full: page and bridge show it meanwhile."""
+
+
 class TrajoptNode(WalkNode):
     """Publishes the optimised path and the trajectory."""
 
@@ -43,6 +47,7 @@ class TrajoptNode(WalkNode):
         self._live: LivePath | None = None
         self._solved_for: tuple[Any, ...] = ()
         self._path_ns = 0
+        self._rough: dict[int, KeypointEdit] = {}  # releases that are not solved in full yet, by keypoint
         self._paying = threading.Lock()
         self._owed: tuple[Trajectory, int] | None = None  # with its stamp, not published yet
         self.offer("path", "trajectory", "path_results")
@@ -61,12 +66,14 @@ class TrajoptNode(WalkNode):
         if plan is None:
             self.diagnostics.state("waiting", "no tour yet: waiting for keypoints, keypoint_markers and tour")
             return
-        undone = self._take_back()
+        changed = self._take_back()
+        # Before the next revision is followed, which keeps what is shown.
+        changed |= self._refine(building)
         if (plan.stamp_ns, config) != self._solved_for[:2]:
             if self._live is None or config != self._solved_for[1]:
                 self._live = live_path(building, config, self._folder())
             self._follow(self._live, plan, timing)
-        elif self._live is not None and (undone or timing != self._solved_for[2]):
+        elif self._live is not None and (changed or timing != self._solved_for[2]):
             self._publish(self._live.path(), plan, timing)
         self._solved_for = (plan.stamp_ns, config, timing)
         self._follow_edits(building, plan, timing)
@@ -75,9 +82,19 @@ class TrajoptNode(WalkNode):
         """Takes back what the authority has refused; returns whether there was anything."""
         refused = self._edits.refused()
         for keypoint in refused:
+            self._rough.pop(keypoint, None)
             if self._live is not None and self._solved_for:
                 self._live.take_back(keypoint)
         return bool(refused)
+
+    def _refine(self, building: Building) -> bool:
+        """Solves the releases in full that are shown as drags are; returns whether there was anything."""
+        rough, self._rough = self._rough, {}
+        if self._live is None:
+            return False
+        # Where that leads nowhere the path stays as it is shown, which is swept, too.
+        moved = [self._live.move(k, eye_over_floor(building, edit.position)).accepted for k, edit in rough.items()]
+        return any(moved)
 
     def _folder(self) -> Path | None:
         folder = str(self.get_parameter("state_dir").value)
@@ -85,11 +102,11 @@ class TrajoptNode(WalkNode):
 
     def forget(self) -> None:
         """Drops the path through another building; the tour is kept, for the sequencer may have been faster."""
-        self._live, self._solved_for = None, ()
+        self._live, self._solved_for, self._rough = None, (), {}
 
     def fail(self, stamp_ns: int) -> None:
         """Publishes an empty path and trajectory; the next step solves again, whatever it is about."""
-        self._live, self._solved_for, self._owed = None, (), None
+        self._live, self._solved_for, self._owed, self._rough = None, (), None, {}
         self.publish_all(path_messages(None, stamp_ns))
 
     def supersedes(self, groups: frozenset[str]) -> bool:
@@ -117,12 +134,19 @@ class TrajoptNode(WalkNode):
         for edit, came_s in latest:
             if self._live is None or edit.keypoint not in plan.ids:
                 continue
-            hasty = edit.kind is EditKind.DRAG
-            outcome = self._live.move(edit.keypoint, eye_over_floor(building, edit.position), hasty=hasty)
+            eye, released = eye_over_floor(building, edit.position), edit.kind is EditKind.RELEASE
+            self._rough.pop(edit.keypoint, None)
+            outcome = self._live.move(edit.keypoint, eye, hasty=True)
+            if released and outcome.accepted:
+                self._rough[edit.keypoint] = edit
+            elif released:
+                outcome = self._live.move(edit.keypoint, eye)
             if outcome.accepted:
-                self._publish(outcome.path, plan, timing, hasty=hasty)
+                self._publish(outcome.path, plan, timing, hasty=True)
                 self.diagnostics.latency(self.now_s() - came_s)
             self._tell(edit, outcome.reason)
+        if self._rough:
+            self.worker.wake(rest_s=REFINE_S)
 
     def _tell(self, edit: KeypointEdit, reason: str) -> None:
         """Says which path shows an edit, or why the path stays as it is."""

@@ -54,7 +54,7 @@ export class Held {
     this.actions.grab(id);
   }
 
-  /** Follows the hand; sends previews. */
+  /** Follows the hand; sends previews, but none of where it lets go: the planner would answer it before the release. */
   follow(hand: HandInput): void {
     if (this.id === null || !this.overlay) return;
     const { place } = this.overlay;
@@ -65,7 +65,7 @@ export class Held {
     // A trembling hand is no move: half a centimetre of the building.
     if (!this.moved && BEFORE.distanceTo(this.at) < 0.005) return;
     this.moved = true;
-    this.actions.drag(this.id, this.place(), this.quat(hand));
+    if (hand.trigger.down) this.actions.drag(this.id, this.place(), this.quat(hand));
   }
 
   /** Where it is now, in the room. */
