@@ -5,6 +5,7 @@
 
 import { Box3, BufferAttribute, BufferGeometry, Color } from "three";
 import { Bvh } from "./bvh";
+import { type Facets, facetsOf } from "./facets";
 import type { BuildingMesh } from "./glb";
 import { colourOfPart } from "./palette";
 import { readTopology } from "./topology";
@@ -52,37 +53,45 @@ function treeOf(solid: readonly BuildingMesh[]): Bvh {
 }
 
 function merge(meshes: readonly BuildingMesh[], edges: Float32Array[], leastEdgeM: number): BufferGeometry {
-  const vertices = meshes.reduce((sum, mesh) => sum + mesh.positions.length / 3, 0);
+  // First the topology: it turns the triangles of solids that are inside out.
+  const topologies = meshes.map((mesh) => readTopology(mesh, leastEdgeM));
+  const facets = meshes.map(facetsOf);
+  const vertices = facets.reduce((sum, { source }) => sum + source.length, 0);
   const positions = new Float32Array(vertices * 3);
   const colours = new Uint8Array(vertices * 3);
   const kinds = new Uint8Array(vertices * 4);
   const indices = new Uint32Array(meshes.reduce((sum, mesh) => sum + mesh.indices.length, 0));
   let [vertex, index] = [0, 0];
-  for (const mesh of meshes) {
-    const topology = readTopology(mesh, leastEdgeM);
-    edges.push(topology.edges);
-    positions.set(mesh.positions, vertex * 3);
-    for (let v = 0; v < topology.solid.length; v++) kinds[4 * (vertex + v)] = topology.solid[v] * 255;
-    paint(mesh, colours, vertex);
-    for (let i = 0; i < mesh.indices.length; i++) indices[index++] = mesh.indices[i] + vertex;
-    vertex += mesh.positions.length / 3;
-  }
+  meshes.forEach((mesh, number) => {
+    const { source, normals, indices: corners } = facets[number];
+    const { solid } = topologies[number];
+    edges.push(topologies[number].edges);
+    for (let v = 0; v < source.length; v++) {
+      positions.set(mesh.positions.subarray(3 * source[v], 3 * source[v] + 3), 3 * (vertex + v));
+      kinds.set(normals.subarray(3 * v, 3 * v + 3), 4 * (vertex + v));
+      kinds[4 * (vertex + v) + 3] = solid[source[v]] * 255;
+    }
+    paint(mesh, facets[number], colours, vertex);
+    for (let i = 0; i < corners.length; i++) indices[index++] = corners[i] + vertex;
+    vertex += source.length;
+  });
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(positions, 3));
   geometry.setAttribute("color", new BufferAttribute(colours, 3, true));
-  geometry.setAttribute("aKind", new BufferAttribute(kinds, 4, true));
+  geometry.setAttribute("aKind", new BufferAttribute(kinds, 4));
   geometry.setIndex(new BufferAttribute(indices, 1));
   if (vertices) geometry.computeBoundingSphere();
   return geometry;
 }
 
-function paint(mesh: BuildingMesh, colours: Uint8Array, vertex: number): void {
+/** Paints the last vertex of each triangle. */
+function paint(mesh: BuildingMesh, { indices }: Facets, colours: Uint8Array, vertex: number): void {
   const colour = new Color();
   for (const part of mesh.parts) {
     colourOfPart(mesh.group, part, colour);
     const [r, g, b] = [colour.r * 255, colour.g * 255, colour.b * 255];
-    for (let i = part.first; i < part.first + part.count; i++) {
-      const at = 3 * (vertex + mesh.indices[i]);
+    for (let i = part.first + 2; i < part.first + part.count; i += 3) {
+      const at = 3 * (vertex + indices[i]);
       colours[at] = r;
       colours[at + 1] = g;
       colours[at + 2] = b;

@@ -4,50 +4,54 @@
 import { Color, DoubleSide, type Plane, ShaderMaterial, Vector3 } from "three";
 import { CAP_COLOUR } from "./palette";
 
+// All but the angle at which one looks at a triangle holds for the whole of it: its two colours, looked at along it and straight
+// at it, stand at its last vertex (see facets.ts), as do the distance of its plane from the eye and whether it encloses anything.
 const VERTEX = `
 #include <clipping_planes_pars_vertex>
+#include <colorspace_pars_fragment>
 attribute vec4 aKind;
-varying vec3 vTint;
-varying vec3 vMap;
-varying float vSolid;
+uniform vec3 uSun;
+uniform vec3 uEye;
+flat varying vec4 vAlong;
+flat varying vec4 vStraight;
+varying vec3 vFromEye;
+vec3 shown(vec3 light) {
+  return sRGBTransferOETF(vec4(light, 1.0)).rgb;
+}
 void main() {
-  vTint = color;
-  vMap = position;
-  vSolid = aKind.x;
+  vec3 normal = (aKind.xyz - 128.0) / 127.0;
+  float away = dot(normal, uEye - position);
+  // Walls of one layer are lit from both sides.
+  if (away < 0.0) normal = -normal;
+  float sky = normal.z * 0.5 + 0.5;
+  float sun = max(dot(normal, uSun), 0.0);
+  float side = abs(normal.x) * 0.06 - abs(normal.y) * 0.06;
+  vec3 light = mix(vec3(0.56, 0.54, 0.53), vec3(0.76, 0.78, 0.82), sky);
+  light += vec3(0.27, 0.255, 0.22) * sun + side;
+  // Undersides of slabs are what ceilings look like from below.
+  vec3 tint = mix(color, vec3(0.93, 0.92, 0.9), 0.75 * clamp(-2.5 * normal.z - 1.25, 0.0, 1.0));
+  vAlong = vec4(shown(tint * light), abs(away));
+  vStraight = vec4(shown(tint * (light + 0.10)), aKind.w);
+  vFromEye = position - uEye;
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;
   #include <clipping_planes_vertex>
 }`;
 
-// The slope of the map's coordinates over the picture gives a normal that faces the viewer: no normals are sent, and
-// walls of one layer are lit from both sides. Back faces of solids are seen only where they are cut: these are the caps.
+// Back faces of solids are seen only where they are cut: these are the caps.
 const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform vec3 uCap;
-uniform vec3 uSun;
-uniform vec3 uEye;
 uniform float uOpacity;
 uniform float uCaps;
-varying vec3 vTint;
-varying vec3 vMap;
-varying float vSolid;
+flat varying vec4 vAlong;
+flat varying vec4 vStraight;
+varying vec3 vFromEye;
 void main() {
   #include <clipping_planes_fragment>
-  if (!gl_FrontFacing && vSolid > 0.5 && uCaps > 0.5) {
-    gl_FragColor = vec4(uCap, 1.0);
-  } else {
-    vec3 normal = normalize(cross(dFdx(vMap), dFdy(vMap)));
-    float sky = normal.z * 0.5 + 0.5;
-    float sun = max(dot(normal, uSun), 0.0);
-    float facing = abs(dot(normal, normalize(uEye - vMap)));
-    float side = abs(normal.x) * 0.06 - abs(normal.y) * 0.06;
-    vec3 light = mix(vec3(0.56, 0.54, 0.53), vec3(0.76, 0.78, 0.82), sky);
-    light += vec3(0.27, 0.255, 0.22) * sun + 0.10 * facing + side;
-    // Undersides of slabs are what ceilings look like from below.
-    vec3 tint = mix(vTint, vec3(0.93, 0.92, 0.9), 0.75 * clamp(-2.5 * normal.z - 1.25, 0.0, 1.0));
-    gl_FragColor = vec4(tint * light, uOpacity);
-  }
-  #include <colorspace_fragment>
+  float facing = min(vAlong.w * inversesqrt(dot(vFromEye, vFromEye)), 1.0);
+  vec4 lit = vec4(mix(vAlong.rgb, vStraight.rgb, facing), uOpacity);
+  gl_FragColor = !gl_FrontFacing && vStraight.w * uCaps > 0.5 ? vec4(uCap, 1.0) : lit;
 }`;
 
 /** A material for the building: tints per vertex, light from the building's own sky and sun, caps where it is cut. */
@@ -64,7 +68,7 @@ export class SurfaceMaterial extends ShaderMaterial {
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
       uniforms: {
-        uCap: { value: new Color(CAP_COLOUR) },
+        uCap: { value: new Color(CAP_COLOUR).convertLinearToSRGB() },
         uSun: { value: new Vector3(0.45, -0.55, 0.75).normalize() },
         uEye: { value: new Vector3() },
         uOpacity: { value: opacity },
