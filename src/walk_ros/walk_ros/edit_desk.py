@@ -33,7 +33,7 @@ _ANSWER_S = 5.0
 """How long a service waits for what it asked for; then it says that the answer comes later."""
 
 _REST_S = {EditKind.DRAG: REST_S, EditKind.HOLD: REST_S, EditKind.RELEASE: 0.02}
-"""How long an edit waits that trajopt shows: it, bridge and page need the cores first, for a release until it is drawn."""
+"""How long edits wait that trajopt shows: it, bridge and page need the cores first, at a release until it is drawn."""
 
 
 @dataclasses.dataclass(slots=True, kw_only=True)
@@ -70,7 +70,7 @@ class EditDesk:
         self._services.start()
 
     def due(self) -> Asked | None:
-        """Returns the first edit that waits, once its time has come; None where there is none: the worker is woken for it."""
+        """Returns the first edit that waits once its time has come, else None; the worker is then woken in time."""
         if not self.waiting:
             return None
         left_s = self.waiting[0].due_s - self._node.now_s()
@@ -141,7 +141,6 @@ class EditDesk:
         now_s, rest_s = self._node.now_s(), _REST_S.get(edit.kind, 0.0)
         asked = Asked(edit=edit, came_s=now_s, due_s=now_s + rest_s, from_editor=from_editor)
         self.waiting.append(asked)
-        # A drag is shown by trajopt, which needs the cores now; what is said about it here can follow.
         self._node.worker.wake(rest_s=rest_s)
         return asked
 

@@ -66,9 +66,9 @@ class SequencerNode(WalkNode):
             self._publish_legs(authority)
             self._tell_misplaced(building, authority)
         before = self._view.revision_ns
-        while (asked := self._desk.due()) is not None:
+        while (due := self._desk.due()) is not None:
             # Taken off only once it is answered: a step that is superseded begins with it again.
-            self._answer(authority, asked, config)
+            self._answer(authority, due, config)
             self._desk.waiting.popleft()
         if self._view.revision_ns != before:
             self._publish_legs(authority)

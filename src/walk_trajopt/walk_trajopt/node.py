@@ -31,7 +31,6 @@ from walk_trajopt.node_inbox import Inbox, Plan
 from walk_trajopt.path import OptimisedPath
 from walk_trajopt.trajectory import Trajectory
 
-
 REFINE_S = 0.03
 """How long a release is shown as a drag is, before it is solved in full: page and bridge show it meanwhile."""
 
