@@ -90,6 +90,23 @@ def test_a_drag_without_a_way_leaves_the_path_and_says_why(running, observer):
     observer.edit(EditKind.RELEASE, identity, eye)()
 
 
+def test_a_release_is_shown_as_a_drag_is_and_then_solved_in_full(running, observer, sweep):
+    identity, eye = next(iter(shown(observer).items()))
+    answer = observer.edit(EditKind.RELEASE, identity, eye + [0.1, 0.0, 0.0])
+    stamp = stamp_of(observer)
+    told = observer.wait(lambda: results(observer, "path_results").get(stamp), "what trajopt says about it")
+    assert told.outcome is Outcome.FOLLOWED
+
+    def paths():
+        return {path.stamp_ns: path for path in map(c.path_from_msg, observer.heard["path"])}
+
+    first = observer.wait(lambda: paths().get(told.revision_ns), "the path as of a drag")
+    assert sweep.segments_free(first.positions).all()
+    observer.wait(lambda: max(paths()) > told.revision_ns, "the path solved in full")
+    assert answer().outcome is Outcome.ACCEPTED
+    assert sweep.segments_free(settled(observer).positions).all()
+
+
 RESTARTED = {"sequencer": "tour", "trajopt": "path", "importance": "suggested_keypoints"}
 
 
