@@ -26,7 +26,7 @@ def running(graph, observer):
         graph.start(name)
     observer.wait_for_all()
     observer.wait(lambda: observer.state("importance").get("state") == "ready", "suggestions")
-    observer.wait(lambda: observer.edits.get_subscription_count() >= 3, "the graph to hear edits")
+    observer.wait(lambda: observer.edits.get_subscription_count() >= 2, "the graph to hear edits")
     return graph
 
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from walk_ros.conversions.edits import Change, EditKind, KeypointEdit
+from walk_ros.conversions.edits import Change, EditKind, EditResult, KeypointEdit, Outcome, edit_result_to_msg
 from walk_ros.near_watch import PATIENCE_S, NearWatch
 
 
@@ -14,14 +14,21 @@ class Node:
 
     def __init__(self):
         self.now = 0.0
+        self.asked = []
 
-    def create_subscription(self, *_args, **_kwargs):
+    def offer(self, *_topics):
         pass
+
+    def take_in(self, _topic, store):
+        self.refuse = store
+
+    def publish(self, _topic, msg):
+        self.asked.append(msg)
 
     def create_timer(self, _period, look, **_kwargs):
         self.look = look
 
-    def count_publishers(self, _topic):
+    def count_subscribers(self, _topic):
         return 1
 
     def now_s(self):
@@ -102,6 +109,17 @@ def test_an_insertion_is_the_answer_that_was_waited_for(watch, node, refused):
     node.now = PATIENCE_S + 1.0
     node.look()
     assert refused == []
+
+
+def test_what_the_importance_node_refuses_is_refused_once(watch, node, refused):
+    watch.wait_for(near(7))
+    assert [msg.menu_entry_id for msg in node.asked] == [Change.INSERT_NEAR]
+    result = EditResult(
+        outcome=Outcome.REFUSED, keypoint="", client_id="anna", reason="no map", revision_ns=0, edit_stamp_ns=7
+    )
+    for _ in range(2):
+        node.refuse(edit_result_to_msg(result))
+    assert refused == [(7, "no map")]
 
 
 def test_what_is_remembered_does_not_grow_for_ever(watch):

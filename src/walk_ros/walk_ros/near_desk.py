@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from walk_building.errors import WalkError
 from walk_ros.conversions.edits import (
     Change,
-    EditKind,
     EditResult,
     KeypointEdit,
     Outcome,
@@ -25,7 +24,7 @@ from walk_ros.conversions.edits import (
     edit_to_msg,
 )
 from walk_ros.conversions.poses import Poses, keypoints_from_msg
-from walk_ros.editor import FEEDBACK
+from walk_ros.errors import MessageError
 from walk_ros.node import WalkNode
 from walk_ros.results import NO_POINTS, NO_TURNS
 from walk_ros.worker import Worker
@@ -46,15 +45,14 @@ class NearDesk:
     """
 
     def __init__(self, node: WalkNode, find: Find) -> None:
-        """Subscribes to edits and to the keypoints, and starts the thread."""
+        """Subscribes to the sequencer's requests and to the keypoints, and starts the thread."""
         self._node = node
         self._find = find
         self._waiting: deque[KeypointEdit] = deque()
         self._keypoints = Poses(stamp_ns=0, positions=NO_POINTS, quat_xyzw=NO_TURNS)
         self._worker = Worker(f"{node.get_name()} near desk", self._step, self._failed)
-        node.offer("keypoint_edits", "edit_results")
-        node.take_in("keypoint_edits", self._store)
-        node.take_in(FEEDBACK, self._store)
+        node.offer("keypoint_edits", "near/refusals")
+        node.take_in("near/requests", self._store)
         node.take_in("keypoints", self._store_keypoints)
         self._worker.start()
 
@@ -63,10 +61,11 @@ class NearDesk:
         self._worker.stop(timeout_s)
 
     def _store(self, msg: Any) -> None:
-        # Looked at before it is checked: drags come 90 times a second and are not for this node.
-        if msg.event_type == EditKind.CHANGE.value and msg.menu_entry_id == Change.INSERT_NEAR:
-            self._waiting.append(edit_from_msg(msg))
-            self._worker.wake()
+        edit = edit_from_msg(msg)
+        if edit.change is not Change.INSERT_NEAR:
+            raise MessageError("InteractiveMarkerFeedback", f"menu_entry_id is not {Change.INSERT_NEAR.value}")
+        self._waiting.append(edit)
+        self._worker.wake()
 
     def _store_keypoints(self, msg: Any) -> None:
         self._keypoints = keypoints_from_msg(msg)
@@ -93,7 +92,7 @@ class NearDesk:
             revision_ns=revision_ns,
             edit_stamp_ns=edit.stamp_ns,
         )
-        self._node.publish("edit_results", edit_result_to_msg(result))
+        self._node.publish("near/refusals", edit_result_to_msg(result))
 
     def _failed(self, error: Exception) -> None:
         _log.error("a keypoint near a place could not be found", exc_info=error)

@@ -30,7 +30,7 @@ from walk_ros.log import forward_logging
 from walk_ros.parameters import ConfigParameters, unknown_overrides
 from walk_ros.qos import latched
 from walk_ros.side_node import SideNode
-from walk_ros.topics import NAMESPACE, TOPICS
+from walk_ros.topics import BETWEEN_NODES, NAMESPACE, TOPICS
 from walk_ros.worker import Superseded, Worker
 
 if TYPE_CHECKING:
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 STOP_S = 3.0
 """How long a worker may take to end: the longest stretch of a stage between two progress reports, with room."""
+
+_ALL = TOPICS | BETWEEN_NODES
 
 
 class WalkNode(Node):
@@ -151,7 +153,7 @@ class WalkNode(Node):
             raw: Hand the messages over as bytes.
             aside: Hear it in a thread of its own, which has nothing else to look through: for what is answered at once.
         """
-        kind, qos = TOPICS[topic].type, TOPICS[topic].qos
+        kind, qos = _ALL[topic].type, _ALL[topic].qos
         if not aside:
             return self.create_subscription(kind, topic, callback, qos, raw=raw)
         self._aside = self._aside or SideNode(self, "aside")
@@ -167,9 +169,9 @@ class WalkNode(Node):
     def offer(self, *topics: str, depth: int = 0) -> None:
         """Makes the publishers of topics of the table; a depth other than 0 replaces the table's."""
         for topic in topics:
-            qos = latched(depth) if depth else TOPICS[topic].qos
+            qos = latched(depth) if depth else _ALL[topic].qos
             old = self._publishing.get(topic)
-            self._publishing[topic] = self.create_publisher(TOPICS[topic].type, topic, qos)
+            self._publishing[topic] = self.create_publisher(_ALL[topic].type, topic, qos)
             if old is not None:
                 self.destroy_publisher(old)
 

@@ -56,6 +56,13 @@ TOPICS: dict[str, Topic] = {
     "/diagnostics": Topic(type=DiagnosticArray, qos=reliable(10)),
 }
 
+BETWEEN_NODES: dict[str, Topic] = {
+    "near/requests": Topic(type=InteractiveMarkerFeedback, qos=reliable()),
+    "near/refusals": Topic(type=DiagnosticStatus, qos=reliable()),
+}
+"""What sequencer and importance settle between themselves: clients do not need it, and in a recording it would be said
+twice, for it follows from the edits."""
+
 
 def absolute_name(topic: str, namespace: str = NAMESPACE) -> str:
     """Returns the topic's full name; one that begins with a slash is full already."""
