@@ -17,6 +17,8 @@ from walk_trajopt.solvers import Solution
 from walk_trajopt.state import Legs, State, bent
 
 _HASTY_ITERATIONS, _HASTY_TOLERANCE = 10, 1e-2  # of a drag: the next one goes on from there, a release takes its time
+# Of any other move: from between two minima the cost falls slowly at first, and a bent piece often begins there.
+_PATIENCE = 0.1
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,7 +51,8 @@ class Mover:
 
     def __init__(self, guard: Guard, pieces: Pieces, config: TrajoptConfig, router: Router | None) -> None:
         self.router = router
-        self._guard, self._pieces, self._config = guard, pieces, config
+        self._guard, self._pieces = guard, pieces
+        self._config = dataclasses.replace(config, tolerance=max(_PATIENCE * config.tolerance, 1e-15))
         self._hasty = dataclasses.replace(
             config,
             max_iterations=min(config.max_iterations, _HASTY_ITERATIONS),
