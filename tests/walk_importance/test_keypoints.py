@@ -160,7 +160,7 @@ def test_snapping_where_nothing_is_near_says_how_far_the_next_place_is(
     assert error.value.nearest_m == pytest.approx(np.linalg.norm((candidates.eyes - far)[:, :2], axis=1).min())
     above = snap_keypoint(rooms, rooms_map, np.array([2.0, 2.0, 1.6 + 1.0]))
     assert_standable(rooms, above)
-    with pytest.raises(NoPlaceNearError, match="nor anywhere on that storey"):
+    with pytest.raises(NoPlaceNearError, match="no storey at its height"):
         snap_keypoint(rooms, rooms_map, np.array([2.0, 2.0, 1.6 + 3.0]))
 
 
@@ -174,7 +174,7 @@ def test_snapping_keeps_away_from_the_keypoints_there_are(rooms: Building, rooms
         assert (gaps >= 2 * rooms.walker.radius_m).all()
         taken = np.concatenate([taken, found.positions])
     everywhere = find_candidates(rooms, rooms_map).eyes
-    with pytest.raises(NoPlaceNearError):
+    with pytest.raises(NoPlaceNearError, match="nor anywhere on that storey"):
         snap_keypoint(rooms, rooms_map, near, config, taken=everywhere)
 
 

@@ -125,7 +125,10 @@ def test_a_journal_put_aside_is_kept(journal):
     assert same(journal.replay().present, Keypoints())
     assert aside is not None and aside.read_bytes() == before
     assert journal.put_aside() is None, "there is nothing to put aside"
-    assert aside.read_bytes() == before
+    three(journal)
+    again = journal.put_aside()
+    assert again is not None and again != aside and again.exists()
+    assert aside.read_bytes() == before, "what was put aside before stays"
 
 
 def test_the_state_folder_follows_the_xdg_specification(monkeypatch, tmp_path):

@@ -39,15 +39,19 @@ class NoPlaceNearError(WalkError):
     Attributes:
         radius_m: How far around it was looked.
         nearest_m: How far off the next place on the same storey is, inf where there is none.
+        on_storey: Whether the height is one of a storey.
     """
 
-    def __init__(self, radius_m: float, nearest_m: float) -> None:
+    def __init__(self, radius_m: float, nearest_m: float, *, on_storey: bool = True) -> None:
         self.radius_m = radius_m
         self.nearest_m = nearest_m
+        self.on_storey = on_storey
         there = f"the next one is {nearest_m:.1f} m away" if np.isfinite(nearest_m) else "nor anywhere on that storey"
-        super().__init__(
-            f"no free place for a keypoint within {radius_m:g} m, {there}; point elsewhere or raise snap_radius_m"
-        )
+        sentence = f"no free place for a keypoint within {radius_m:g} m, {there}; point elsewhere or raise "
+        sentence += "keypoints.snap_radius_m"
+        if not on_storey:
+            sentence = "the point is over no floor, and there is no storey at its height; point at a place over a floor"
+        super().__init__(sentence)
 
 
 class MapNotReadyError(WalkError):

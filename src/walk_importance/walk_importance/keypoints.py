@@ -225,7 +225,7 @@ def snap_keypoint(
 
     Raises:
         NoPlaceError: There is no place the walker can reach.
-        NoPlaceNearError: There is none within the radius, or all there are taken.
+        NoPlaceNearError: There is none within the radius, or all there are taken, or the height is no storey's.
     """
     config = config or KeypointConfig()
     candidates = candidates or find_candidates(building, importance_map)
@@ -239,6 +239,7 @@ def snap_keypoint(
     worth = choice.score - config.cone_depth * distance / config.snap_radius_m
     best = best_candidate(worth, free & (distance <= config.snap_radius_m))
     if best < 0:
-        raise NoPlaceNearError(config.snap_radius_m, float(distance[free].min()) if free.any() else np.inf)
+        nearest_m = float(distance[free].min()) if free.any() else np.inf
+        raise NoPlaceNearError(config.snap_radius_m, nearest_m, on_storey=bool(level.any()))
     choice.take(np.arange(len(distance)) == best)
     return _suggestion(building, importance_map, choice, ())

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import errno
+import itertools
 import json
 import logging
 import os
@@ -85,10 +86,14 @@ class Journal:
             return False
 
     def put_aside(self) -> Path | None:
-        """Renames the journal to `.old`, so that the next start begins without it; returns that, or None for none."""
-        aside = self.path.with_suffix(".old")
+        """Renames the journal, so that the next start begins without it; returns the new name, or None for no journal.
+
+        It ends in `.old`, or `.2.old` and so on: what was put aside before stays.
+        """
+        numbers = itertools.chain([""], (f".{k}" for k in itertools.count(2)))
+        names = (self.path.with_suffix(f"{number}.old") for number in numbers)
         try:
-            return self.path.replace(aside) if self.path.exists() else None
+            return self.path.rename(next(n for n in names if not n.exists())) if self.path.exists() else None
         except OSError as error:
             raise JournalError(self.path, error.strerror or str(error)) from error
 

@@ -86,4 +86,6 @@ def _elsewhere(building: Building, place: int) -> str:
 def _no_floor(building: Building, gap_m: float, config: SequencerConfig) -> str:
     eye = building.walker.eye_height_m
     where = f"within {config.snap_m:g} m of the point {eye:g} m below it"
-    return f"no floor to stand on {where}; the nearest is {gap_m:.2f} m away"
+    # Whoever writes a table by hand takes the floor's height for the eye's first of all.
+    hint = "; z is the eye's height: is it the floor's here?" if abs(gap_m - eye) <= config.snap_m else ""
+    return f"no floor to stand on {where}; the nearest is {gap_m:.2f} m away{hint}"
