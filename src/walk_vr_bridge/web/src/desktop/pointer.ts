@@ -73,7 +73,7 @@ export class Pointer {
 
   private hidden({ position: [x, y, z] }: Keypoint): boolean {
     const { clip } = this.stage.miniature;
-    return this.stage.mode === "model" && clip.active && !clip.keeps(x, y, z - this.stage.eyeHeightM + 0.1);
+    return this.stage.mode === "model" && clip.active && !clip.keepsOnFloor(x, y, z - this.stage.eyeHeightM);
   }
 
   private down(event: PointerEvent): void {

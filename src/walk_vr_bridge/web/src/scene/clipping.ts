@@ -11,6 +11,8 @@ export const CUT_OVER_FLOOR_M = 1.4;
 /** How near the hand must be to a storey's cut for it to snap, as a part of the building's height. */
 const SNAP_PART = 0.035;
 const SNAP_LEAST_M = 0.25;
+/** What people walk on is shown while so much of what is over it is kept [m]: keypoints and the path by one rule. */
+const KEPT_OVER_FLOOR_M = 0.1;
 
 export class Clip {
   /** What lies on the normal's negative side is cut away; in the map's coordinates. */
@@ -85,6 +87,17 @@ export class Clip {
   keeps(x: number, y: number, z: number): boolean {
     const { normal, constant } = this.plane;
     return !this.active || normal.x * x + normal.y * y + normal.z * z + constant >= 0;
+  }
+
+  /** True for what stands on a floor that is not cut away, however high it is drawn over it. */
+  keepsOnFloor(x: number, y: number, floorZ: number): boolean {
+    return this.keeps(x, y, floorZ + KEPT_OVER_FLOOR_M);
+  }
+
+  /** Writes the plane that cuts, by the rule of `keepsOnFloor`, what is drawn so high over its floor [m]. */
+  writeRaised(overFloorM: number, out: Plane): void {
+    out.copy(this.plane);
+    out.constant -= this.plane.normal.z * Math.max(0, overFloorM - KEPT_OVER_FLOOR_M);
   }
 
   /** The storey that one looks down on: the highest whose floor is below the cut. */

@@ -17,6 +17,8 @@ export class Miniature {
   readonly copy: BuildingCopy;
   /** The cut in world coordinates, as materials want it; all of the miniature's materials share it. */
   readonly planes: Plane[] = [new Plane()];
+  /** The same for the path: on a ramp it rises above a cut that leaves the floor under it. */
+  readonly pathPlanes: Plane[] = [new Plane()];
   private readonly base: Mesh<BoxGeometry, MeshBasicMaterial>;
   private readonly centre = new Vector3();
   private longest = 1;
@@ -80,11 +82,12 @@ export class Miniature {
     this.base.visible = visible;
   }
 
-  /** Once a frame: brings the cut to where the miniature is now. */
-  update(): void {
+  /** Once a frame: brings the cut to where the miniature is now, for a path that is drawn so high over the floor [m]. */
+  update(pathOverFloorM: number): void {
     this.group.updateMatrixWorld();
-    this.planes[0].copy(this.clip.plane).applyMatrix4(this.group.matrixWorld);
-    this.planes[0].normalize();
+    this.planes[0].copy(this.clip.plane).applyMatrix4(this.group.matrixWorld).normalize();
+    this.clip.writeRaised(pathOverFloorM, this.pathPlanes[0]);
+    this.pathPlanes[0].applyMatrix4(this.group.matrixWorld).normalize();
   }
 }
 

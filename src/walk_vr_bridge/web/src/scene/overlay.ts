@@ -23,6 +23,7 @@ export class Overlay {
   size = 0;
 
   /**
+   * @param planes what cuts all but the path, and what cuts the path.
    * @param belowEyeM how far under the eye keypoints are drawn.
    * @param pathBelowEyeM how far under the eye the path is drawn.
    */
@@ -30,14 +31,14 @@ export class Overlay {
     name: "full" | "miniature",
     group: Group,
     tube: PathTube,
-    planes: Plane[],
+    [planes, pathPlanes]: [Plane[], Plane[]],
     belowEyeM: number,
     pathBelowEyeM: number,
   ) {
     this.place = new Place(name, group, belowEyeM);
     this.numbers = new Numbers(name === "miniature");
     this.pins = new Pins(1.6 - belowEyeM);
-    this.path = new PathView(tube, planes, name === "miniature" ? 0.22 : 0);
+    this.path = new PathView(tube, pathPlanes, name === "miniature" ? 0.22 : 0);
     this.map = new MapView(planes);
     const lowered = new Group();
     lowered.position.z = -belowEyeM;

@@ -72,9 +72,10 @@ export class Stage {
     this.world.add(this.fullGroup);
     this.miniature = new Miniature(this.world);
     const none: Plane[] = [];
-    this.inFull = new Overlay("full", this.fullGroup, this.tube, none, FULL_BELOW_M, FULL_PATH_BELOW_M);
-    const { group, planes } = this.miniature;
-    this.inMiniature = new Overlay("miniature", group, this.tube, planes, MINIATURE_BELOW_M, MINIATURE_BELOW_M);
+    this.inFull = new Overlay("full", this.fullGroup, this.tube, [none, none], FULL_BELOW_M, FULL_PATH_BELOW_M);
+    const { group, planes, pathPlanes } = this.miniature;
+    const cuts: [Plane[], Plane[]] = [planes, pathPlanes];
+    this.inMiniature = new Overlay("miniature", group, this.tube, cuts, MINIATURE_BELOW_M, MINIATURE_BELOW_M);
     this.overlays = [this.inMiniature, this.inFull];
     this.maps = new Maps(store, this.inFull.map, this.inMiniature.map);
     this.setMode("model");
@@ -201,7 +202,7 @@ export class Stage {
   private update(seconds: number): void {
     const { view, miniature } = this;
     if (miniature.clip.active !== this.wasCut) this.restyle();
-    miniature.update();
+    miniature.update(this.eyeHeightM - MINIATURE_BELOW_M);
     this.setSizes();
     this.full.lookFrom(view.eye);
     miniature.copy.lookFrom(view.eye);
@@ -251,7 +252,7 @@ export class Stage {
     const [x, y, z] = keypoint.position;
     const floorZ = z - this.eyeHeightM;
     if (!clip.active) return thin ? "plain" : "dimmed";
-    if (!clip.keeps(x, y, floorZ + 0.1)) return "hidden";
+    if (!clip.keepsOnFloor(x, y, floorZ)) return "hidden";
     return this.storeyAt(floorZ) < clip.openStorey && !thin ? "dimmed" : "plain";
   }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
-import { Box3, Group, Vector3 } from "three";
+import { Box3, Group, Plane, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { makeWorld } from "../../src/scene/axes";
 import { Clip, CUT_OVER_FLOOR_M } from "../../src/scene/clipping";
@@ -34,6 +34,21 @@ describe("the cut", () => {
     expect(cut.plane.constant).toBeCloseTo(3 + CUT_OVER_FLOOR_M + 1, 9);
     cut.cutAt(3 + CUT_OVER_FLOOR_M + 0.2, false);
     expect(cut.storey).toBe(-1);
+  });
+
+  it("cuts the path where it cuts the floor under it, not where it is drawn", () => {
+    const cut = clip();
+    cut.cutStorey(0);
+    const raised = new Plane();
+    cut.writeRaised(1, raised);
+    for (const floorZ of [0, 0.7, 1.2, 1.35, 3]) {
+      const kept = raised.distanceToPoint(new Vector3(0, 0, floorZ + 1)) >= 0;
+      expect(kept, `a floor at ${floorZ} m`).toBe(cut.keepsOnFloor(0, 0, floorZ));
+    }
+    cut.cutAlong(new Vector3(1, 0, 0), new Vector3(2, 0, 0));
+    cut.writeRaised(1, raised);
+    expect(raised.distanceToPoint(new Vector3(1, 0, 5))).toBeGreaterThan(0);
+    expect(raised.distanceToPoint(new Vector3(3, 0, 5))).toBeLessThan(0);
   });
 
   it("keeps what is below it, and says which storey lies open", () => {
@@ -82,7 +97,7 @@ describe("the miniature", () => {
     const { made } = miniature();
     made.placeAt(new Vector3(-3, 1.1, 4), 2.1);
     made.clip.cutStorey(1);
-    made.update();
+    made.update(1);
     const onCut = new Vector3(7, 2, 3 + CUT_OVER_FLOOR_M).applyMatrix4(made.group.matrixWorld);
     const below = new Vector3(7, 2, 3).applyMatrix4(made.group.matrixWorld);
     expect(made.planes[0].distanceToPoint(onCut)).toBeCloseTo(0, 9);
