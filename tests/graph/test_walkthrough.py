@@ -13,7 +13,7 @@ from walk_building.pipeline import load_building
 from walk_building.sweep import BodySweep
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes
-from walk_ros.topics import TOPICS, absolute_name
+from walk_ros.topics import BETWEEN_NODES, TOPICS, absolute_name
 
 pytestmark = pytest.mark.ros
 
@@ -249,4 +249,4 @@ def test_every_node_ends_cleanly(running):
 
 def test_the_table_has_every_topic_that_was_heard(running, observer):
     names = {name for name, _ in observer.node.get_topic_names_and_types() if name.startswith("/walk")}
-    assert names <= {absolute_name(topic) for topic in TOPICS}
+    assert names <= {absolute_name(topic) for topic in TOPICS | BETWEEN_NODES}
