@@ -28,6 +28,9 @@ from walk_ros.topics import TOPICS, absolute_name
 FIND_S = 6.0
 """How long nodes are looked for; on a busy machine they are found after some seconds."""
 
+ALSO_S = 3.0
+"""How long the others are looked for, once the sequencer is heard; one that does not run is waited for no longer."""
+
 HEAR_S = 20.0
 """How long what was found may take to answer."""
 
@@ -78,6 +81,7 @@ class Listener:
             return None
         if not self._wait(lambda: bool(self._markers) and bool(self._hash()), HEAR_S):
             return None
+        self._wait(lambda: {f"{self._namespace}/{n}" for n in nodes} <= self._names(), ALSO_S)
         parameters = {n: self._parameters(n) for n in nodes if f"{self._namespace}/{n}" in self._names()}
         # What came last meanwhile counts: it is what the journal says too.
         told = self._told[own.strip("/")]

@@ -43,6 +43,9 @@ def save(folder: Path, tour: str, namespace: str, force: bool) -> int:
     state = running_graph(namespace)
     keypoints = save_project(layout, state, force=force)
     print(f"walk: saved {len(keypoints.ids)} keypoints as the tour {tour!r} of {folder}.")
+    absent = [node for node in NODES if node not in state.parameters]
+    if absent:
+        print(f"walk: without the parameters of {', '.join(absent)}, for that does not run.")
     return 0
 
 
