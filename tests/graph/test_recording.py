@@ -17,9 +17,9 @@ import pytest
 from graph.processes import LIMIT_S, Graph, Observer
 
 from walk_bag import BagError, BagWriter, read_bag
+from walk_bag.bag_reader import unfinished_file
 from walk_bag.record import main as record
 from walk_bag.record import pace
-from walk_bag.storage import unfinished_file
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes
 from walk_ros.topics import TOPICS, absolute_name, type_name

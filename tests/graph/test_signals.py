@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from graph.processes import LIMIT_S
 
-from walk_bag.storage import BagWriter
+from walk_bag.bag_writer import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.conversions import EditKind, KeypointEdit, edit_to_msg
 from walk_ros.raw import to_bytes

@@ -11,7 +11,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.interfaces import QosDurability, QosReliability
 
 from walk_bag import BagError, BagTopic, BagWriter, read_bag, write_walkthrough_bag
-from walk_bag.storage import read_topics
+from walk_bag.bag_reader import read_topics
 from walk_bag.walkthrough import bag_topic, walkthrough_messages
 from walk_ros import conversions as c
 from walk_ros.raw import from_bytes, to_bytes

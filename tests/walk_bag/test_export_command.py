@@ -16,9 +16,9 @@ from rclpy.parameter import Parameter
 from scenes import two_rooms
 
 from walk_bag import BagTopic, BagWriter
+from walk_bag.bag_reader import read_bag
 from walk_bag.imports import recorded_building
 from walk_bag.parameter_watch import TOPIC as PARAMETERS
-from walk_bag.storage import read_bag
 from walk_bag.walkthrough import bag_topic
 from walk_bringup.cli.main import main
 from walk_building.loaders import load_model

@@ -16,10 +16,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from walk_bag import BagError, BagTopic, BagWriter, read_bag, recover_bag
+from walk_bag.bag_reader import cut_off_note, read_span, read_topics, unfinished_file
 from walk_bag.mcap_file import MAGIC
 from walk_bag.recover import main as recover
 from walk_bag.spool import Spool
-from walk_bag.storage import cut_off_note, read_span, read_topics, unfinished_file
 
 TOUR = BagTopic(name="/walk/tour", type_name="nav_msgs/msg/Path", latched=True, reliable=True, depth=1)
 EDITS = BagTopic(

@@ -17,10 +17,10 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, W
 from rosbags.typesys import Stores, get_typestore
 
 from walk_bag import BagError, BagTopic, BagWriter, read_bag, recover_bag
+from walk_bag.bag_reader import read_span, read_topics
 from walk_bag.imports import load_ride, recorded_building
 from walk_bag.keypoint_files import read_keypoints
 from walk_bag.replay import chosen
-from walk_bag.storage import read_span, read_topics
 from walk_bag.timeline import Timeline
 from walk_bag.walkthrough import bag_topic
 from walk_ros import conversions as c

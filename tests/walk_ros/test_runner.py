@@ -92,7 +92,6 @@ sys.exit(run_node(Broken))
     assert "a defect" in said
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="there are no such signals")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_while_a_node_is_made_ends_it_cleanly_once_it_is(number):
     code, said, told = run_alone(f"""

@@ -6,7 +6,8 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.serialization import serialize_message
 
-from walk_bag.storage import BagWriter, read_bag
+from walk_bag.bag_reader import read_bag
+from walk_bag.bag_writer import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.raw import from_bytes
 from walk_vr_bridge.study import TLX_PAIRS, TLX_SCALES, StudyError, events_of, scores_from_events, sus_score, tlx_scores

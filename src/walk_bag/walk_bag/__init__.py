@@ -8,16 +8,20 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from walk_bag.bag_reader import read_bag
+    from walk_bag.bag_writer import BagWriter
     from walk_bag.errors import BagError
-    from walk_bag.storage import BagWriter, read_bag, recover_bag
+    from walk_bag.recover import recover_bag
     from walk_bag.topics import BagMessage, BagTopic
     from walk_bag.walkthrough import write_walkthrough_bag
 
 __all__ = ["BagError", "BagMessage", "BagTopic", "BagWriter", "read_bag", "recover_bag", "write_walkthrough_bag"]
 
 _HOMES = {
+    "walk_bag.bag_reader": ("read_bag",),
+    "walk_bag.bag_writer": ("BagWriter",),
     "walk_bag.errors": ("BagError",),
-    "walk_bag.storage": ("BagWriter", "read_bag", "recover_bag"),
+    "walk_bag.recover": ("recover_bag",),
     "walk_bag.topics": ("BagMessage", "BagTopic"),
     "walk_bag.walkthrough": ("write_walkthrough_bag",),
 }

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 from rclpy.parameter import parameter_value_to_python
 
+from walk_bag.bag_reader import read_bag
 from walk_bag.errors import BagError
 from walk_bag.exports.ride import Ride
-from walk_bag.storage import read_bag
 from walk_building.config import Config
 from walk_building.errors import WalkError
 from walk_building.model import LoadOptions

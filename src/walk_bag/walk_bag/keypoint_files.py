@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from walk_bag.bag_reader import read_bag
 from walk_bag.errors import BagError, ExportError
 from walk_bag.imports import recorded_building
-from walk_bag.storage import read_bag
 from walk_building.building import Building
 from walk_ros.conversions.poses import keypoints_from_msg
 from walk_ros.raw import from_bytes

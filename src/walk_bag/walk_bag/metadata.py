@@ -11,6 +11,9 @@ import yaml
 from walk_bag.mcap_file import Counted, McapFile
 from walk_bag.topics import qos_to_yaml
 
+METADATA = "metadata.yaml"
+"""Its name in the directory."""
+
 VERSION = 8
 """Of the format: what the readers of Humble's time understand, too."""
 

@@ -14,9 +14,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from walk_bag import parameter_watch
+from walk_bag.bag_writer import BagWriter
 from walk_bag.errors import BagError
 from walk_bag.spool import FLUSH_S, Spool
-from walk_bag.storage import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.raw import RawCollector, policies
 from walk_ros.runner import run_node, user_arguments

@@ -1,17 +1,35 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""The executable that makes a whole bag of one whose recording was cut off."""
+"""A whole bag of one whose recording was cut off, and the executable that makes it."""
 
 from __future__ import annotations
 
 import argparse
+import itertools
 import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from walk_bag.bag_reader import read_bag, unfinished_file
+from walk_bag.bag_writer import BagWriter
 from walk_bag.errors import BagError
-from walk_bag.storage import recover_bag, unfinished_file
+
+
+def recover_bag(path: Path | str, out: Path | str) -> int:
+    """Writes what can be read of a broken bag as a whole one; returns how many messages that is.
+
+    Raises:
+        BagError: There is nothing to read, or `out` cannot be written.
+    """
+    messages = read_bag(path)
+    first = next(messages, None)
+    if first is None:
+        raise BagError(path, "is cut within its first messages: there is nothing to recover")
+    with BagWriter(out) as writer:
+        for message in itertools.chain([first], messages):
+            writer.write(message.topic, message.stamp_ns, message.data)
+        return writer.message_count
 
 
 def parse(argv: Sequence[str]) -> argparse.Namespace:

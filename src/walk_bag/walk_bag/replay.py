@@ -16,9 +16,9 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
 from walk_bag import parameter_watch
+from walk_bag.bag_reader import cut_off_note, read_counts, read_topics
 from walk_bag.errors import BagError
 from walk_bag.pace import Pace
-from walk_bag.storage import cut_off_note, read_counts, read_topics
 from walk_bag.timeline import Timeline
 from walk_bag.topics import BagMessage, BagTopic
 from walk_bag.unplayed import account, reason

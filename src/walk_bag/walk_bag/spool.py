@@ -11,8 +11,8 @@ import threading
 import time
 from collections.abc import Callable
 
+from walk_bag.bag_writer import BagWriter
 from walk_bag.errors import BagError
-from walk_bag.storage import BagWriter
 from walk_bag.topics import BagTopic
 
 FLUSH_S = 1.0

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Iterator
 from pathlib import Path
 
-from walk_bag.storage import read_bag, read_span, read_topics
+from walk_bag.bag_reader import read_bag, read_span, read_topics
 from walk_bag.topics import BagMessage, BagTopic
 
 

@@ -14,7 +14,7 @@ from rcl_interfaces.msg import IntegerRange, ParameterDescriptor
 
 import foxglove
 from foxglove import Channel, Schema
-from walk_bag.storage import message_definition
+from walk_bag.bag_reader import message_definition
 from walk_ros.errors import ArgumentError
 from walk_ros.raw import RawSubscriber, policies
 from walk_ros.runner import run_node

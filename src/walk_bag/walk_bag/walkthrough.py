@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from walk_bag.storage import BagWriter
+from walk_bag.bag_writer import BagWriter
 from walk_bag.topics import BagTopic
 from walk_ros.conversions.importance import ImportanceMapLike
 from walk_ros.conversions.trajectories import TrajectoryLike

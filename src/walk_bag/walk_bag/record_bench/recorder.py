@@ -13,8 +13,8 @@ from collections import Counter
 from pathlib import Path
 from typing import Any
 
+from walk_bag.bag_reader import read_bag
 from walk_bag.parameter_watch import TOPIC as PARAMETERS
-from walk_bag.storage import read_bag
 from walk_ros.live_bench.hand import BenchError, Hand
 from walk_ros.topics import absolute_name
 

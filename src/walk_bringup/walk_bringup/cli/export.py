@@ -18,10 +18,10 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from walk_bag.bag_reader import cut_off_note
 from walk_bag.exports import EXPORTERS, export_ride
 from walk_bag.exports.ride import ExportConfig, Ride
 from walk_bag.imports import SOURCES, RecordedBuilding, load_ride, recorded_building
-from walk_bag.storage import cut_off_note
 from walk_bringup.bootstrap.commands import COMMANDS
 from walk_bringup.cli.spoken import spoken
 from walk_bringup.cli.units import UnitOfLength

@@ -1,18 +1,15 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""rosbag2 bags: written in MCAP, read in all storages of rosbag2, without a ROS installation."""
+"""Reads bags in all storages of rosbag2, and what their message types are, without a ROS installation."""
 
 from __future__ import annotations
 
 import contextlib
 import functools
 import heapq
-import itertools
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import yaml
 from rosbags.interfaces import Connection, QosDurability, QosReliability
@@ -21,128 +18,9 @@ from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
 from walk_bag.errors import BagError
-from walk_bag.mcap_file import McapFile, is_finished, is_mcap, read_whole_records
-from walk_bag.metadata import embedded_yaml, metadata_yaml
+from walk_bag.mcap_file import is_finished, is_mcap, read_whole_records
+from walk_bag.metadata import METADATA
 from walk_bag.topics import BagMessage, BagTopic
-
-_METADATA = "metadata.yaml"
-
-
-class BagWriter:
-    """Writes a bag; a context manager, complete once it is left.
-
-    A path that ends in `.mcap` becomes a bare file, which plays as it is, and replaces one that is there. Any
-    other becomes a rosbag2 directory, which must not be there yet.
-    """
-
-    def __init__(self, path: Path | str, *, keep: bool = False) -> None:
-        """Begins the bag.
-
-        Args:
-            path: The bag.
-            keep: Whether what was written before an error is worth keeping: a bare file is then written as
-                `NAME.part.mcap`, a bag of its own, until it is complete.
-
-        Raises:
-            BagError: The bag cannot be written there.
-        """
-        self.path = Path(path)
-        self._keep = keep or self.path.suffix != ".mcap"
-        self._recording = keep
-        try:
-            self._file = McapFile(self._begin())
-        except OSError as error:
-            raise BagError(self.path, f"cannot be written: {error.strerror}") from error
-
-    def _begin(self) -> Path:
-        """Returns the file to write; makes the folders it needs."""
-        if self.path.suffix != ".mcap":
-            if self.path.exists():
-                raise BagError(self.path, "exists already; name another bag or take it away")
-            self.path.mkdir(parents=True)
-            return self.path / f"{self.path.name}.mcap"
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        part = self.path.with_suffix(".part.mcap")
-        if self._keep and part.exists():
-            raise BagError(part, "is what is left of a recording that was cut off; recover it or take it away")
-        part.unlink(missing_ok=True)
-        return part
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        if error is None or (self._recording and not isinstance(error, Exception)):
-            self.close()  # a recording ends with Ctrl-C, wherever that comes
-            return
-        self._file.cut()
-        if not self._keep:
-            self._file.path.unlink()
-
-    @property
-    def message_count(self) -> int:
-        """How many messages were written."""
-        return self._file.message_count
-
-    @property
-    def duration_s(self) -> float:
-        """Time from the first message to the last."""
-        return (self._file.last_ns - self._file.first_ns) / 1e9
-
-    def type_hash(self, type_name: str) -> str:
-        """Returns the hash of a message type, `RIHS01_…`, as the bag will hold it."""
-        return str(_types().hash_rihs01(type_name))
-
-    def write(self, topic: BagTopic, stamp_ns: int, data: bytes) -> None:
-        """Appends a message (CDR bytes) that was sent or came in at the time.
-
-        Raises:
-            BagError: The disk is full or gone.
-        """
-        try:
-            if topic.name not in self._file.topics:
-                self._file.add(topic, message_definition(topic.type_name), self.type_hash(topic.type_name))
-            self._file.write(topic.name, stamp_ns, data)
-        except OSError as error:
-            raise _disk_error(self._file.path, error) from error
-
-    def flush(self) -> None:
-        """Hands what was written to the operating system; a process killed later loses none of it."""
-        try:
-            self._file.flush()
-        except OSError as error:
-            raise _disk_error(self._file.path, error) from error
-
-    def close(self) -> None:
-        """Finishes the bag: index and metadata."""
-        try:
-            self._file.finish(embedded_yaml(self._file))
-            if self.path.suffix == ".mcap":
-                self._file.path.replace(self.path)
-            else:
-                (self.path / _METADATA).write_text(metadata_yaml(self._file), encoding="utf-8")
-        except OSError as error:
-            self._file.cut()
-            raise _disk_error(self._file.path, error) from error
-
-
-def message_definition(type_name: str) -> str:
-    """Returns the definition of a message type and of all it is made of, as bags and viewers hold it."""
-    definition, _ = _types().generate_msgdef(type_name, ros_version=2)
-    return str(definition)
-
-
-@functools.cache
-def _types() -> Typestore:
-    return get_typestore(Stores.ROS2_JAZZY)
-
-
-def _disk_error(path: Path, error: OSError) -> BagError:
-    return BagError(
-        path, f"cannot be written any more: {error.strerror}; what was written before is kept and can be read"
-    )
 
 
 def read_bag(
@@ -219,7 +97,7 @@ def unfinished_file(path: Path) -> Path | None:
     """Returns the MCAP file of a bag whose writer did not get to close it, None if the bag is whole."""
     files = _mcap_files(path)
     broken = [file for file in files if is_mcap(file) and not is_finished(file)]
-    if not broken and files and path.is_dir() and not (path / _METADATA).exists():
+    if not broken and files and path.is_dir() and not (path / METADATA).exists():
         return files[-1]  # closed, but killed before the directory was complete
     return broken[0] if broken else None
 
@@ -234,22 +112,6 @@ def cut_off_note(path: Path) -> str:
 def _mcap_files(path: Path) -> list[Path]:
     """Returns the MCAP files of a bag in the order in which they were written: NAME_2.mcap before NAME_10.mcap."""
     return [path] if path.is_file() else sorted(path.glob("*.mcap"), key=lambda file: (len(file.name), file.name))
-
-
-def recover_bag(path: Path | str, out: Path | str) -> int:
-    """Writes what can be read of a broken bag as a whole one; returns how many messages that is.
-
-    Raises:
-        BagError: There is nothing to read, or `out` cannot be written.
-    """
-    messages = read_bag(path)
-    first = next(messages, None)
-    if first is None:
-        raise BagError(path, "is cut within its first messages: there is nothing to recover")
-    with BagWriter(out) as writer:
-        for message in itertools.chain([first], messages):
-            writer.write(message.topic, message.stamp_ns, message.data)
-        return writer.message_count
 
 
 def _whole_messages(path: Path) -> Iterator[BagMessage]:
@@ -290,7 +152,7 @@ def _storage_files(path: Path) -> list[Path]:
     """
     if path.is_file():
         return [path]
-    metadata = path / _METADATA
+    metadata = path / METADATA
     if not metadata.exists():
         return sorted(path.glob("*.db3"), key=lambda file: (len(file.name), file.name)) or [path]
     about = yaml.safe_load(metadata.read_text(encoding="utf-8"))["rosbag2_bagfile_information"]
@@ -310,3 +172,19 @@ def _topic(connection: Connection) -> BagTopic:
         reliable=qos is None or qos.reliability != QosReliability.BEST_EFFORT,
         depth=max(qos.depth, 1) if qos is not None else 10,
     )
+
+
+def message_definition(type_name: str) -> str:
+    """Returns the definition of a message type and of all it is made of, as bags and viewers hold it."""
+    definition, _ = _types().generate_msgdef(type_name, ros_version=2)
+    return str(definition)
+
+
+def message_hash(type_name: str) -> str:
+    """Returns the hash of a message type, `RIHS01_…`, as bags hold it."""
+    return str(_types().hash_rihs01(type_name))
+
+
+@functools.cache
+def _types() -> Typestore:
+    return get_typestore(Stores.ROS2_JAZZY)
