@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """`./walk bench release`: from a controller's release to the new path on the screen, hop by hop, as JSON.
 
-Browser, bridge, DDS, planner and back, on the small made building. Needs Chromium and Node, as the page's tests do.
+Browser, bridge, DDS, planner and back, on the small made building. Needs Chromium, and the page built for the tests.
 """
 
 import argparse
+import contextlib
 import json
+import re
 import sys
 import tempfile
 import threading
@@ -19,8 +21,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from graph.domains import own_domain
 from graph.processes import Observer
 from graph.rooms import make_rooms
-from page.browser import BridgedGraph, Browser, find_tools
+from page.browser import BridgedGraph
+from page.devtools import DevTools
 
+from walk_bringup.check.browser import find_browser
 from walk_ros.conversions import EditKind, edit_from_msg
 
 GOAL_P50_MS, GOAL_P95_MS = 25.0, 60.0
@@ -37,6 +41,8 @@ LIMIT_S = 150.0
 # has been drawn: a pixel of it can be read. In between the emulator, like a real headset, tells the page of the trigger
 # at the next frame. All stamps are of the one clock of this machine [ms since 1970].
 RELEASES = """
+  const hz = hands.pace(HZ);
+  await hands.frames(hz / 2);
   const { client } = walk;
   const { store, actions } = client;
   const id = store.state.keypoints[1].id;
@@ -52,10 +58,11 @@ RELEASES = """
   const gl = renderer.getContext();
   const pixel = new Uint8Array(4);
   const render = renderer.render.bind(renderer);
-  let shown = "", counted = 0, frames = 0;
+  let shown = "";
+  const frames = [];
   renderer.render = (...what) => {
+    frames.push(performance.now());
     render(...what);
-    frames += 1;
     const { revision } = store.state.path;
     if (revision === shown) return;
     shown = revision;
@@ -90,10 +97,18 @@ RELEASES = """
     await rest(200);
     rows.push({ ...one, paths: Object.values(came).filter((at) => at > one.start + 300).length });
   }
-  [frames, counted] = [0, performance.now()];
-  await hands.frames(60);
-  const frameMs = (performance.now() - counted) / frames;
-  return { rows, came, drawn, answers, frameMs };
+  frames.length = 0;
+  await hands.frames(hz);
+  const [left, top] = [new Uint8Array(4), new Uint8Array(4)];
+  renderer.render = (...what) => {
+    render(...what);
+    // One spot of floor, one above the horizon: what is drawn must not be blank.
+    gl.readPixels(80, 20, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, left);
+    gl.readPixels(80, 190, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, top);
+  };
+  await hands.frames(2);
+  if (!left[3] || left.join() === top.join()) throw new Error("nothing is drawn");
+  return { rows, came, drawn, answers, hz, frames };
 """
 
 
@@ -109,22 +124,21 @@ class Listener(Observer):
         return [edit.stamp_ns / 1e6 for edit in edits if edit.kind is EditKind.RELEASE]
 
 
-def measure(count):
-    """Returns what the page and the listener have seen of `count` releases."""
-    browser = Browser(*find_tools())
-    with tempfile.TemporaryDirectory() as folder, own_domain() as domain:
+def measure(count, hz):
+    """Returns what page and listener have seen of `count` releases at `hz` frames a second, None: the headset's own."""
+    names = {"HZ": hz or "undefined", "COUNT": count, "LIMIT_MS": 1000 * LIMIT_S}
+    script = re.sub("|".join(names), lambda name: str(names[name.group()]), RELEASES)
+    with tempfile.TemporaryDirectory() as folder, own_domain() as domain, contextlib.ExitStack() as ends:
         graph = BridgedGraph(domain, Path(folder), make_rooms(Path(folder) / "rooms.ply"))
         listener = Listener(domain)
-        try:
-            graph.start_all()
-            page = browser.open(graph.url)
-            page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
-            seen = page.js(RELEASES.replace("COUNT", str(count)).replace("LIMIT_MS", str(1000 * LIMIT_S)))
-            seen["passed_on"] = listener.releases_ms()
-        finally:
-            graph.close()
-            browser.close()
-            listener.close()
+        ends.callback(listener.close)
+        ends.callback(graph.close)
+        graph.start_all()
+        page = DevTools(find_browser(), graph.url)
+        ends.callback(page.close)
+        page.js("await hands.until(() => window.walk, 'the page'); await hands.enter();")
+        seen = page.js(script)
+        seen["passed_on"] = listener.releases_ms()
     return seen
 
 
@@ -153,10 +167,11 @@ def report(seen):
     names = ("until_the_page_hears_of_the_trigger", "page_to_bridge", "bridge_to_path", "path_to_page", "path_to_frame")
     rows = hops(seen)[WARM_UP:]
     p50, p95 = np.nanpercentile(rows, [50, 95], axis=0)
+    gap50, gap95 = np.percentile(np.diff(seen["frames"]), [50, 95])
     return {
         "releases": len(rows),
         "without_a_path": len(seen["rows"]) - WARM_UP - len(rows),
-        "frame_ms": round(seen["frameMs"], 1),
+        "frames": {"hz": seen["hz"], "p50_ms": round(gap50, 1), "p95_ms": round(gap95, 1)},
         "release_to_drawn": {"p50_ms": round(p50[5], 1), "p95_ms": round(p95[5], 1)},
         "to_goal": {"p50": round(p50[5] / GOAL_P50_MS, 2), "p95": round(p95[5] / GOAL_P95_MS, 2)},
         "hops": {
@@ -168,7 +183,19 @@ def report(seen):
     }  # fmt: skip
 
 
+def frame_rate(text):
+    """Reads the frames a second of a display."""
+    if not (text.isdecimal() and 30 <= int(text) <= 240):
+        raise argparse.ArgumentTypeError(f"{text!r} is no whole number from 30 to 240")
+    return int(text)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="./walk bench release", description=__doc__.splitlines()[0])
     parser.add_argument("--releases", type=int, default=50, help="that are counted (default: %(default)s)")
-    print(json.dumps(report(measure(WARM_UP + parser.parse_args().releases)), indent=2))
+    rates = "frames a second of the display, 30 to 240 (default: the headset's own)"
+    parser.add_argument("--hz", type=frame_rate, help=rates)
+    args = parser.parse_args()
+    if find_browser() is None:
+        parser.error("there is no Chromium: install it first (Debian: sudo apt install chromium)")
+    print(json.dumps(report(measure(WARM_UP + args.releases, args.hz)), indent=2))

@@ -17,7 +17,24 @@ ROOT = Path(__file__).resolve().parents[2]
 WEB = ROOT / "src" / "walk_vr_bridge" / "web"
 STATIC = ROOT / "src" / "walk_vr_bridge" / "walk_vr_bridge" / "static"
 DRIVER = Path(__file__).with_name("driver.mjs")
+HEADSET = Path(__file__).with_name("headset.js")
+IWER = WEB / "node_modules" / "iwer" / "build" / "iwer.min.js"
 WIDTH, HEIGHT = 320, 200
+FLAGS = (
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--use-gl=angle",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--js-flags=--expose-gc",
+    "--enable-precise-memory-info",
+)
+"""Graphics in software, nothing in the background."""
 
 
 def find_tools():
@@ -30,7 +47,7 @@ class Browser:
 
     def __init__(self, node, chromium):
         self._process = subprocess.Popen(
-            [node, str(DRIVER), str(WEB), chromium], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+            [node, str(DRIVER), str(WEB), chromium, *FLAGS], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
 
     def ask(self, **request):

@@ -1,30 +1,16 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 // Drives Chromium for the tests: a JSON request a line comes in, a JSON answer a line goes out.
-// usage: node driver.mjs WEB_FOLDER CHROMIUM
+// usage: node driver.mjs WEB_FOLDER CHROMIUM FLAG…
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import path from "node:path";
 import readline from "node:readline";
 
-const [web, chromiumPath] = process.argv.slice(2);
+const [web, chromiumPath, ...args] = process.argv.slice(2);
 const require = createRequire(path.join(web, "package.json"));
 const { chromium } = require("playwright-core");
-const FLAGS = [
-  "--no-sandbox",
-  "--disable-gpu",
-  "--disable-quic",
-  "--no-first-run",
-  "--disable-background-networking",
-  "--disable-component-update",
-  "--disable-sync",
-  "--use-gl=angle",
-  "--use-angle=swiftshader",
-  "--enable-unsafe-swiftshader",
-  "--js-flags=--expose-gc",
-  "--enable-precise-memory-info",
-];
-const browser = await chromium.launch({ executablePath: chromiumPath, args: FLAGS });
+const browser = await chromium.launch({ executablePath: chromiumPath, args });
 const pages = new Map();
 let serial = 0;
 

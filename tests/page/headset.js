@@ -61,6 +61,24 @@
       walk.room.bringToHand();
       await hands.frames(2);
     },
+    /**
+     * Frames come as often as the display takes them, on a grid of its own: one that is late waits for the next place. Returns
+     * how often that is, if not given as the session has it [Hz]. The emulator's own frames are the browser's, and go to the
+     * page's canvas, which the browser then copies to the screen; in software the page hears nothing meanwhile. A headset draws
+     * to displays of its own, so the canvas is taken from the screen.
+     */
+    pace(hz = walk.view.renderer.xr.getSession().frameRate) {
+      document.querySelector("#view").style.visibility = "hidden";
+      const began = performance.now();
+      let last = 0;
+      window.requestAnimationFrame = (callback) => {
+        const now = performance.now();
+        last = Math.max(last + 1, Math.ceil(((now - began) * hz) / 1000));
+        return setTimeout(() => callback(performance.now()), began + (last * 1000) / hz - now);
+      };
+      window.cancelAnimationFrame = clearTimeout;
+      return hz;
+    },
     /** The head, in the headset's own space. */
     head(at, heading = 0) {
       device.position.set(...at);

@@ -8,6 +8,9 @@ const FEATURES: XRSessionInit = {
   optionalFeatures: ["bounded-floor", "hand-tracking", "layers"],
 };
 
+/** What one does is seen the sooner, the more frames there are; the page's budget of triangles is made for so many [1/s]. */
+const FRAME_RATE = 90;
+
 /** Why there is no headset here, in words; empty where there is one. */
 export type XrObstacle = string;
 
@@ -44,6 +47,7 @@ export class XrEntry {
       this.session = null;
       this.onChange?.(false);
     });
+    askForFrames(session);
     this.view.renderer.xr.setFoveation(1);
     await this.view.renderer.xr.setSession(session);
     this.onChange?.(true);
@@ -52,4 +56,11 @@ export class XrEntry {
   async leave(): Promise<void> {
     await this.session?.end();
   }
+}
+
+/** Asks for the highest rate that the page is made for; a headset that does not let itself be asked keeps its own. */
+export function askForFrames(session: Pick<XRSession, "frameRate" | "supportedFrameRates" | "updateTargetFrameRate">): void {
+  const fitting = Array.from(session.supportedFrameRates ?? []).filter((rate) => rate <= FRAME_RATE);
+  const best = Math.max(0, ...fitting);
+  if (best && best !== session.frameRate) session.updateTargetFrameRate(best).catch(() => undefined);
 }
