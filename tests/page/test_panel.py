@@ -124,13 +124,20 @@ def test_order_kept_or_optimised(desk):
     assert desk.page.js("return document.querySelectorAll('.toast').length") in (0, 1)
 
 
+MEANING = {"obstacle": "Red", "distance": "0: at a wall", "visibility": "How much of", "importance": "How much there"}
+
+
 def test_every_map_and_every_colour_of_the_path_can_be_chosen(desk):
     desk.open("view")
     desk.page.until("desk.state.importance !== null", "the importance map")
     for name in ("obstacle", "distance", "visibility", "importance"):
         desk.click(f'[data-id="map"] [data-value="{name}"]')
-        desk.page.until("document.querySelector('[data-id=\"map-legend\"]')", "its legend")
+        meaning = "document.querySelector('[data-id=\"map-meaning\"]')?.textContent"
+        desk.page.until(f"{meaning}?.startsWith({MEANING[name]!r})", "its meaning")
         assert desk.page.js("return desk.state.settings.map") == name
+        # What is there or not has no scale.
+        shown = desk.page.js("return document.querySelector('[data-id=\"map-legend\"]') !== null")
+        assert shown == (name != "obstacle")
     desk.click('[data-id="map"] [data-value="none"]')
     for colour in ("speed", "clearance", "height", "collisions", "plain"):
         desk.click(f'[data-id="path-colour"] [data-value="{colour}"]')

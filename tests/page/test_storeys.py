@@ -84,38 +84,66 @@ def test_the_cut_changes_the_miniature_and_never_the_building_around(page):
     assert planes["renderer"] == 0
 
 
+# The miniature from straight above, cut along a storey: its pixels, and where a place of the map is among them.
+FROM_ABOVE = """
+  const { view, stage } = walk;
+  const gl = view.renderer.getContext();
+  const fromAbove = async (storey) => {
+    walk.client.actions.showStorey(storey);
+    await hands.frames(3);
+    const camera = new view.camera.constructor(40, gl.drawingBufferWidth / gl.drawingBufferHeight, 0.01, 10);
+    const at = stage.inMiniature.place.toRoom(stage.bounds.getCenter(view.eye.clone()), view.eye.clone());
+    camera.position.copy(at).y += 0.9;
+    camera.up.set(0, 0, -1);
+    camera.lookAt(at);
+    camera.updateMatrixWorld();
+    const { xr } = view.renderer;
+    xr.enabled = false;
+    const target = view.renderer.getRenderTarget();
+    view.renderer.setRenderTarget(null);
+    view.renderer.render(view.scene, camera);
+    const [width, height] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+    const pixels = new Uint8Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    view.renderer.setRenderTarget(target);
+    xr.enabled = true;
+    const pixelOf = (map) => {
+      const seen = stage.inMiniature.place.toRoom(view.eye.clone().fromArray(map), view.eye.clone()).project(camera);
+      const column = Math.floor(((seen.x + 1) / 2) * width), row = Math.floor(((seen.y + 1) / 2) * height);
+      return Array.from(pixels.subarray(4 * (row * width + column), 4 * (row * width + column) + 3));
+    };
+    return { width, height, pixels, pixelOf };
+  };
+"""
+CAP = (57, 66, 77)
+
+
 def test_walls_are_filled_where_they_are_cut(page):
-    # From straight above, a cut building shows caps: areas of their colour, of which there are none without the cut.
-    shares = page.js("""
-      const { view, stage } = walk;
-      const gl = view.renderer.getContext();
-      const share = async (storey) => {
-        walk.client.actions.showStorey(storey);
-        await hands.frames(3);
-        const { PerspectiveCamera, WebGLRenderTarget } = { PerspectiveCamera: view.camera.constructor };
-        const camera = new PerspectiveCamera(40, 1, 0.01, 10);
-        const at = stage.inMiniature.place.toRoom(stage.bounds.getCenter(view.eye.clone()), view.eye.clone());
-        camera.position.copy(at).y += 0.9;
-        camera.up.set(0, 0, -1);
-        camera.lookAt(at);
-        const { xr } = view.renderer;
-        xr.enabled = false;
-        const target = view.renderer.getRenderTarget();
-        view.renderer.setRenderTarget(null);
-        view.renderer.render(view.scene, camera);
-        const [w, h] = [gl.drawingBufferWidth, gl.drawingBufferHeight];
-        const pixels = new Uint8Array(4 * w * h);
-        gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
-        view.renderer.setRenderTarget(target);
-        xr.enabled = true;
-        let caps = 0;
-        const like = (at) => [57, 66, 77].every((value, channel) => Math.abs(pixels[at + channel] - value) < 4);
+    # A cut building shows caps: areas of their colour, of which there are none without the cut.
+    shares = page.js(f"""
+      {FROM_ABOVE}
+      const share = async (storey) => {{
+        const {{ width, height, pixels }} = await fromAbove(storey);
+        const like = (at) => {list(CAP)}.every((value, channel) => Math.abs(pixels[at + channel] - value) < 4);
         // Areas, not the single pixels that shine through where two faces meet.
-        const within = (at) => [0, -4, 4, -4 * w, 4 * w].every((step) => like(at + step));
-        for (let i = 4 * w; i < pixels.length - 4 * w; i += 4) if (within(i)) caps += 1;
-        return caps / (w * h);
-      };
+        const within = (at) => [0, -4, 4, -4 * width, 4 * width].every((step) => like(at + step));
+        let caps = 0;
+        for (let i = 4 * width; i < pixels.length - 4 * width; i += 4) if (within(i)) caps += 1;
+        return caps / (width * height);
+      }};
       return [await share(-1), await share(0)];
     """)
     assert shares[1] > 0.002
     assert shares[1] > 10 * shares[0]
+
+
+def test_a_wall_that_stands_on_another_is_filled_too(page):
+    # The bottom of the upper one, all that one sees of its cut from above, lies in one plane with the top of the lower.
+    corners = [(0.15, 0.15), (23.85, 0.15), (0.15, 15.85), (23.85, 15.85)]
+    colours = page.js(f"""
+      {FROM_ABOVE}
+      const {{ pixelOf }} = await fromAbove(1);
+      return {[list(corner) for corner in corners]}.map(([x, y]) => pixelOf([x, y, 4.6]));
+    """)
+    for colour in colours:
+        assert max(abs(a - b) for a, b in zip(colour, CAP, strict=True)) < 4

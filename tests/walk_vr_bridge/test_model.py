@@ -5,22 +5,26 @@
 import gzip
 import json
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 from scenes import building_of, two_rooms
+from scipy.spatial import cKDTree
 
 from walk_building.pipeline import load_building
 from walk_vr_bridge.config import BridgeConfig
 from walk_vr_bridge.content import content
 from walk_vr_bridge.files import Files
+from walk_vr_bridge.model.floor import floor_of, rectangles
 from walk_vr_bridge.model.glb import batches, write_glb
-from walk_vr_bridge.model.outline import outline
 from walk_vr_bridge.model.pieces import Piece, compact, group_of, pieces_of
 from walk_vr_bridge.model.scene import FULL_MESHES, MINIATURE_MESHES, describe, make_scene
 from walk_vr_bridge.model.simplify import simplify
 from walk_vr_bridge.model.volume import volume
+
+SAMPLE = Path(__file__).resolve().parents[2] / "src" / "walk_bringup" / "buildings" / "sample.ifc"
 
 
 def read_glb(data):
@@ -107,27 +111,41 @@ def test_equal_vertices_are_merged_and_empty_triangles_left_out():
     assert faces.tolist() == [[0, 1, 2], [0, 3, 2]]
 
 
-def test_the_outline_goes_around_the_floor_and_around_holes():
-    inside = np.ones((4, 3), bool)
-    assert len(outline(inside)) == 1
-    (ring,) = outline(inside)
-    assert sorted(map(tuple, ring.tolist())) == [(0, 0), (0, 3), (4, 0), (4, 3)]
-    inside[1, 1] = False
-    rings = outline(inside)
-    assert [abs(area(r)) for r in rings] in ([12.0, 1.0], [1.0, 12.0])
-    assert sum(map(area, rings)) == 11.0
-
-
-def test_any_outline_has_the_area_of_its_cells():
+def test_rectangles_cover_each_cell_once_at_its_level():
     rng = np.random.default_rng(3)
     for _ in range(50):
-        inside = rng.random((9, 7)) < 0.5
-        assert sum(map(area, outline(inside))) == inside.sum()
+        levels = rng.integers(-1, 3, (9, 7))
+        covered = np.full(levels.shape, -1)
+        for i0, j0, i1, j1, level in rectangles(levels, none=-1):
+            assert (covered[i0:i1, j0:j1] == -1).all()
+            covered[i0:i1, j0:j1] = level
+        assert (covered == levels).all()
+    assert rectangles(np.zeros((40, 30), int)).tolist() == [[0, 0, 40, 30, 0]]
 
 
-def area(ring):
-    x, y = ring[:, 0], ring[:, 1]
-    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2)
+def off(tiles, points):
+    """How far each of (N, 3) points is from the nearest tile over or under it, and whether tiles lie in one place."""
+    x0, y0, x1, y1, z = tiles.T
+    inside = (points[:, :1] >= x0) & (points[:, :1] < x1) & (points[:, 1:2] >= y0) & (points[:, 1:2] < y1)
+    gaps = np.where(inside, np.abs(z - points[:, 2:3]), np.inf)
+    return gaps.min(1), ((gaps < 0.3).sum(1) > 1).any()
+
+
+def test_the_floor_lies_under_whoever_walks_there_also_on_a_stair():
+    building = load_building(SAMPLE)
+    surface = building.surface
+    for index in range(len(building.storeys)):
+        tiles = floor_of(building, index)
+        here = (surface.storey == index) & building.reachable
+        places = surface.places[here]
+        gap, doubled = off(tiles, places)
+        assert gap.max() <= 0.026
+        assert not doubled
+        # Nowhere farther from where somebody stands than a body reaches.
+        middles = (tiles[:, :2] + tiles[:, 2:4]) / 2
+        gap, _ = cKDTree(surface.places[surface.storey == index, :2]).query(middles)
+        assert gap.max() <= building.walker.radius_m + surface.cell_m
+    assert len(np.unique(floor_of(building, 0)[:, 4])) > 5, "the stair of the sample"
 
 
 class Map:
@@ -189,9 +207,10 @@ def test_a_building_is_described_as_it_is():
     assert told["hash"] == building.hash
     assert (told["up"], told["units"], told["frame"]) == ("z", "m", "map")
     assert [room["reachable"] for room in told["rooms"]] == [room.reachable for room in building.rooms]
-    rings = [np.array(ring) for ring in told["storeys"][0]["outline"]]
+    x0, y0, x1, y1, z = np.array(told["storeys"][0]["floor"]).T
     floor = building.reachable | (building.surface.indoor & (building.surface.room >= 0))
-    assert sum(map(area, rings)) == pytest.approx(floor.sum() * building.surface.place_area_m2, rel=0.01)
+    assert ((x1 - x0) * (y1 - y0)).sum() >= floor.sum() * building.surface.place_area_m2
+    assert np.abs(z).max() < 0.03
     low, high = np.array(told["bounds"]["min"]), np.array(told["bounds"]["max"])
     assert ((low <= told["start"]) & (told["start"] <= high)).all()
     assert len(pieces_of(building)) == len([part for part in building.model.parts if part.n_faces])

@@ -13,8 +13,8 @@ from walk_building.building import Building
 from walk_building.progress import Progress, no_progress
 from walk_vr_bridge.config import BridgeConfig
 from walk_vr_bridge.content import Content, content
+from walk_vr_bridge.model.floor import floor_of
 from walk_vr_bridge.model.glb import batches, write_glb
-from walk_vr_bridge.model.outline import outline
 from walk_vr_bridge.model.pieces import Piece, pieces_of
 from walk_vr_bridge.model.simplify import simplify
 
@@ -79,7 +79,11 @@ def describe(building: Building) -> dict[str, Any]:
         },
         "start": surface.places[start].tolist(),
         "storeys": [
-            {"name": storey.name, "floor_z_m": storey.elevation_m, "outline": _outline(building, index)}
+            {
+                "name": storey.name,
+                "floor_z_m": storey.elevation_m,
+                "floor": np.round(floor_of(building, index), 3).tolist(),
+            }
             for index, storey in enumerate(building.storeys)
         ],
         "rooms": [
@@ -95,18 +99,6 @@ def describe(building: Building) -> dict[str, Any]:
         ],
         "warnings": list(building.warnings),
     }
-
-
-def _outline(building: Building, storey: int) -> list[list[list[float]]]:
-    surface = building.surface
-    columns = surface.columns
-    floor = building.reachable | (surface.indoor & (surface.room >= 0))
-    inside = np.zeros(columns.count, bool)
-    inside[columns.flat_of(surface.places[floor & (surface.storey == storey), :2])] = True
-    rings = outline(inside.reshape(columns.shape))
-    # A column's place is at its centre: its cell begins half of one before.
-    corner = np.asarray(columns.origin) - columns.cell_m / 2
-    return [np.round(corner + ring * columns.cell_m, 3).tolist() for ring in rings]
 
 
 def _told(url: str, file: Content, pieces: list[Piece], meshes: int, in_file: int) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 /** The building and the importance volume over HTTP, asked for until they are there. */
 
 import { fields, finite, list, MessageError, triple, whole, words } from "./check";
-import type { BuildingState, Channel, ChannelName, ImportanceState, ModelFile, Ring, Room, Storey } from "./state";
+import type { BuildingState, Channel, ChannelName, ImportanceState, ModelFile, Room, Storey } from "./state";
 
 export type Fetch = (url: string) => Promise<Response>;
 
@@ -76,14 +76,12 @@ function modelFile(value: unknown, where: string): ModelFile {
 
 function storeyFrom(value: unknown): Storey {
   const said = fields(value, "storey");
-  const outline = list(said.outline, "outline").map(
-    (ring): Ring =>
-      list(ring, "ring").map((pair) => {
-        const [x, y] = list(pair, "corner");
-        return [finite(x, "corner"), finite(y, "corner")] as const;
-      }),
-  );
-  return { name: words(said.name, "storey.name"), floorZ: finite(said.floor_z_m, "floor_z_m"), outline };
+  const floor = list(said.floor, "floor").flatMap((tile) => {
+    const numbers = list(tile, "floor").map((number) => finite(number, "floor"));
+    if (numbers.length !== 5) throw new MessageError(`a piece of floor has five numbers, not ${numbers.length}`);
+    return numbers;
+  });
+  return { name: words(said.name, "storey.name"), floorZ: finite(said.floor_z_m, "floor_z_m"), floor: Float32Array.from(floor) };
 }
 
 function roomFrom(value: unknown): Room {

@@ -71,15 +71,12 @@ export interface SessionState {
   readonly role: "viewer" | "editor";
 }
 
-/** A closed ring of [x, y]. */
-export type Ring = readonly (readonly [number, number])[];
-
 export interface Storey {
   readonly name: string;
   /** Height of its floor. */
   readonly floorZ: number;
-  /** Around the floor one can walk on; filled by the even-odd rule. */
-  readonly outline: readonly Ring[];
+  /** What one walks on: level rectangles, x0, y0, x1, y1, z of each. */
+  readonly floor: Float32Array;
 }
 
 export interface Room {

@@ -18,6 +18,13 @@ const MAPS = [
   { value: "visibility", label: "Visibility" },
   { value: "importance", label: "Importance" },
 ];
+/** What the numbers of a map say; see docs/importance.md. */
+const MEANINGS: Readonly<Record<ChannelName, string>> = {
+  obstacle: "Red: something stands there.",
+  distance: "0: at a wall or a thing; 1: as far from them as counts.",
+  visibility: "How much of all free space one sees from there: 0 none, 1 all.",
+  importance: "How much there is to see: the weighted sum of the other maps.",
+};
 const COLOURS = [
   { value: "plain", label: "Plain" },
   { value: "speed", label: "Speed" },
@@ -83,7 +90,8 @@ function mapWidgets({ settings, importance, loading, building }: State, actions:
     const text = loading.importance || "The maps are being computed …";
     return [...widgets, { kind: "note", id: "no-map", text, tone: "plain" }];
   }
-  return [...widgets, mapLegend(importance, settings.map, building?.storeys ?? [])];
+  if (settings.map !== "obstacle") widgets.push(mapLegend(importance, settings.map, building?.storeys ?? []));
+  return [...widgets, { kind: "note", id: "map-meaning", text: MEANINGS[settings.map], tone: "plain" }];
 }
 
 /** What the ends of the colours mean, by map and channel: finding it looks through the whole map. */

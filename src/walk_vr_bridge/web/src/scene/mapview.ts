@@ -4,18 +4,24 @@
 import { BufferGeometry, type Data3DTexture, Group, Mesh, type Plane, PlaneGeometry, Points } from "three";
 import { DoubleSide, GLSL3, Matrix4, Quaternion, ShaderMaterial, Vector2, Vector3 } from "three";
 import type { ChannelName, ImportanceState } from "../client/state";
+import { OVER_FLOOR_M } from "./carpet";
+import { CUT_OVER_FLOOR_M } from "./clipping";
 import { SCALE_GLSL } from "./colourmap";
 import { channelIndex } from "./volume";
 
-const SLICE_VERTEX = `
+const LAID_VERTEX = `
+#include <clipping_planes_pars_vertex>
 out vec3 vMap;
 uniform mat4 uPlace;
 void main() {
   vec4 place = uPlace * vec4(position, 1.0);
   vMap = place.xyz;
-  gl_Position = projectionMatrix * modelViewMatrix * place;
+  vec4 mvPosition = modelViewMatrix * place;
+  gl_Position = projectionMatrix * mvPosition;
+  #include <clipping_planes_vertex>
 }`;
-const SLICE_FRAGMENT = `
+const LAID_FRAGMENT = `
+#include <clipping_planes_pars_fragment>
 precision highp sampler3D;
 uniform sampler3D uVolume;
 uniform vec3 uOrigin;
@@ -29,6 +35,7 @@ in vec3 vMap;
 out vec4 colour;
 ${SCALE_GLSL}
 void main() {
+  #include <clipping_planes_fragment>
   vec3 at = (vMap + vec3(0.0, 0.0, uLift) - uOrigin) / uSize;
   if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) discard;
   vec4 voxel = texture(uVolume, at);
@@ -62,33 +69,30 @@ void main() {
   colour = vec4(uSolid > 0.5 ? vec3(0.72, 0.2, 0.17) : scaleColour((vValue - uRange.x) / uRange.y), 0.8);
 }`;
 
-/** One map of the building, as a slice along a plane and as points. */
+/** One map of the building: as a slice along a plane, laid on the floors, and as points. */
 export class MapView {
   readonly group = new Group();
   private readonly slice: Mesh<PlaneGeometry, ShaderMaterial>;
+  private readonly carpet: Mesh<BufferGeometry, ShaderMaterial>;
   private readonly points: Points<BufferGeometry, ShaderMaterial>;
 
   constructor(planes: Plane[]) {
     const solid = { value: 0 };
     const range = { value: new Vector2(0, 1) };
-    const slice = new ShaderMaterial({
-      glslVersion: GLSL3,
-      vertexShader: SLICE_VERTEX,
-      fragmentShader: SLICE_FRAGMENT,
-      side: DoubleSide,
-      transparent: true,
-      depthWrite: false,
-      uniforms: {
-        uVolume: { value: null },
-        uOrigin: { value: new Vector3() },
-        uSize: { value: new Vector3(1, 1, 1) },
-        uChannel: { value: [0, 0, 0, 1] },
-        uFull: { value: [1, 0, 0, 0] },
-        uSolid: solid,
-        uLift: { value: 0 },
-        uRange: range,
-        uPlace: { value: new Matrix4() },
-      },
+    const laid = {
+      uVolume: { value: null },
+      uOrigin: { value: new Vector3() },
+      uSize: { value: new Vector3(1, 1, 1) },
+      uChannel: { value: [0, 0, 0, 1] },
+      uFull: { value: [1, 0, 0, 0] },
+      uSolid: solid,
+      uRange: range,
+    };
+    const slice = laidMaterial([], { ...laid, uLift: { value: 0 }, uPlace: { value: new Matrix4() } });
+    const carpet = laidMaterial(planes, {
+      ...laid,
+      uLift: { value: CUT_OVER_FLOOR_M - OVER_FLOOR_M },
+      uPlace: { value: new Matrix4() },
     });
     const dots = new ShaderMaterial({
       glslVersion: GLSL3,
@@ -102,19 +106,21 @@ export class MapView {
     });
     this.slice = new Mesh(new PlaneGeometry(1, 1), slice);
     this.points = new Points(new BufferGeometry(), dots);
-    this.slice.frustumCulled = this.points.frustumCulled = false;
-    this.slice.renderOrder = 12;
+    this.carpet = new Mesh(new BufferGeometry(), carpet);
+    this.slice.frustumCulled = this.carpet.frustumCulled = this.points.frustumCulled = false;
+    this.slice.renderOrder = this.carpet.renderOrder = 12;
     this.points.renderOrder = 14;
-    this.group.add(this.slice, this.points);
+    this.group.add(this.slice, this.carpet, this.points);
     this.group.visible = false;
   }
 
-  /** Shows one channel of the map: its texture along the slice, its points. */
+  /** Shows one channel of the map: its texture along the slice and on the floors, its points. */
   show(
     map: ImportanceState,
     channel: ChannelName,
     texture: Data3DTexture,
     points: BufferGeometry,
+    floors: BufferGeometry,
     range: readonly [number, number],
   ): void {
     const { uniforms } = this.slice.material;
@@ -126,11 +132,17 @@ export class MapView {
     mask(uniforms.uChannel.value as number[], channelIndex(map, channel));
     mask(uniforms.uFull.value as number[], channelIndex(map, "obstacle"));
     this.points.geometry = points;
+    this.carpet.geometry = floors;
     this.group.visible = true;
   }
 
   hide(): void {
     this.group.visible = false;
+  }
+
+  /** Shows the map on the floors, as it is at a cut above them. */
+  showCarpet(visible: boolean): void {
+    this.carpet.visible = visible;
   }
 
   showPoints(visible: boolean): void {
@@ -156,6 +168,20 @@ export class MapView {
     TURN.setFromUnitVectors(AHEAD, NORMAL.copy(plane.normal).negate());
     this.slice.material.uniforms.uPlace.value.compose(AT, TURN, SIZE.set(width, width, 1));
   }
+}
+
+function laidMaterial(planes: Plane[], uniforms: ShaderMaterial["uniforms"]): ShaderMaterial {
+  return new ShaderMaterial({
+    glslVersion: GLSL3,
+    vertexShader: LAID_VERTEX,
+    fragmentShader: LAID_FRAGMENT,
+    side: DoubleSide,
+    clipping: planes.length > 0,
+    clippingPlanes: planes,
+    transparent: true,
+    depthWrite: false,
+    uniforms,
+  });
 }
 
 function mask(values: number[], index: number): void {

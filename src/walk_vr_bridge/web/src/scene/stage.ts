@@ -177,6 +177,7 @@ export class Stage {
     this.wasCut = clip.active;
     this.full.setThin(thin);
     this.miniature.copy.setThin(thin || (settings.map !== "none" && !clip.active));
+    this.miniature.copy.showCaps(clip.active && !thin);
     this.drawn = false;
   }
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 
-import { Color, DoubleSide, type Plane, ShaderMaterial, Vector3 } from "three";
+import { BackSide, Color, DoubleSide, type Plane, ShaderMaterial, Vector3 } from "three";
 import { CAP_COLOUR } from "./palette";
 
 // All but the angle at which one looks at a triangle holds for the whole of it: its two colours, looked at along it and straight
-// at it, stand at its last vertex (see facets.ts), as do the distance of its plane from the eye and whether it encloses anything.
+// at it, stand at its last vertex (see facets.ts), as does the distance of its plane from the eye.
 const VERTEX = `
 #include <clipping_planes_pars_vertex>
 #include <colorspace_pars_fragment>
@@ -13,7 +13,7 @@ attribute vec4 aKind;
 uniform vec3 uSun;
 uniform vec3 uEye;
 flat varying vec4 vAlong;
-flat varying vec4 vStraight;
+flat varying vec3 vStraight;
 varying vec3 vFromEye;
 vec3 shown(vec3 light) {
   return sRGBTransferOETF(vec4(light, 1.0)).rgb;
@@ -31,30 +31,45 @@ void main() {
   // Undersides of slabs are what ceilings look like from below.
   vec3 tint = mix(color, vec3(0.93, 0.92, 0.9), 0.75 * clamp(-2.5 * normal.z - 1.25, 0.0, 1.0));
   vAlong = vec4(shown(tint * light), abs(away));
-  vStraight = vec4(shown(tint * (light + 0.10)), aKind.w);
+  vStraight = shown(tint * (light + 0.10));
   vFromEye = position - uEye;
   vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * mvPosition;
   #include <clipping_planes_vertex>
 }`;
 
-// Back faces of solids are seen only where they are cut: these are the caps.
 const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
-uniform vec3 uCap;
 uniform float uOpacity;
-uniform float uCaps;
 flat varying vec4 vAlong;
-flat varying vec4 vStraight;
+flat varying vec3 vStraight;
 varying vec3 vFromEye;
 void main() {
   #include <clipping_planes_fragment>
   float facing = min(vAlong.w * inversesqrt(dot(vFromEye, vFromEye)), 1.0);
-  vec4 lit = vec4(mix(vAlong.rgb, vStraight.rgb, facing), uOpacity);
-  gl_FragColor = !gl_FrontFacing && vStraight.w * uCaps > 0.5 ? vec4(uCap, 1.0) : lit;
+  gl_FragColor = vec4(mix(vAlong.rgb, vStraight, facing), uOpacity);
 }`;
 
-/** A material for the building: tints per vertex, light from the building's own sky and sun, caps where it is cut. */
+// What encloses nothing has no inside: its triangles go out of sight.
+const CAP_VERTEX = `
+#include <clipping_planes_pars_vertex>
+attribute vec4 aKind;
+uniform float uNearer;
+void main() {
+  vec4 mvPosition = modelViewMatrix * vec4(position, 1.0);
+  mvPosition.z += uNearer * length(modelViewMatrix[2].xyz);
+  gl_Position = aKind.w > 0.5 ? projectionMatrix * mvPosition : vec4(0.0, 0.0, 2.0, 1.0);
+  #include <clipping_planes_vertex>
+}`;
+const CAP_FRAGMENT = `
+#include <clipping_planes_pars_fragment>
+uniform vec3 uCap;
+void main() {
+  #include <clipping_planes_fragment>
+  gl_FragColor = vec4(uCap, 1.0);
+}`;
+
+/** A material for the building: tints per vertex, light from the building's own sky and sun. */
 export class SurfaceMaterial extends ShaderMaterial {
   constructor(planes: Plane[], opacity = 1) {
     super({
@@ -68,11 +83,9 @@ export class SurfaceMaterial extends ShaderMaterial {
       polygonOffsetFactor: 1,
       polygonOffsetUnits: 1,
       uniforms: {
-        uCap: { value: new Color(CAP_COLOUR).convertLinearToSRGB() },
         uSun: { value: new Vector3(0.45, -0.55, 0.75).normalize() },
         uEye: { value: new Vector3() },
         uOpacity: { value: opacity },
-        uCaps: { value: 1 },
       },
     });
     this.setOpacity(opacity);
@@ -87,5 +100,30 @@ export class SurfaceMaterial extends ShaderMaterial {
     this.uniforms.uOpacity.value = opacity;
     this.transparent = opacity < 1;
     this.depthWrite = opacity >= 1;
+  }
+}
+
+/**
+ * A material for the caps where a building is cut: there one sees the back faces of solids, and nowhere else. They are a hair nearer
+ * than they are, to cover a neighbour's face in the same plane: a slab's under the wall that it carries.
+ */
+export class CapMaterial extends ShaderMaterial {
+  constructor(planes: Plane[]) {
+    super({
+      vertexShader: CAP_VERTEX,
+      fragmentShader: CAP_FRAGMENT,
+      side: BackSide,
+      clipping: true,
+      clippingPlanes: planes,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: -1,
+      uniforms: { uCap: { value: new Color(CAP_COLOUR).convertLinearToSRGB() }, uNearer: { value: 0 } },
+    });
+  }
+
+  /** Takes how far two faces of one plane may be apart after they came as whole numbers [m]. */
+  setNearer(metres: number): void {
+    this.uniforms.uNearer.value = metres;
   }
 }

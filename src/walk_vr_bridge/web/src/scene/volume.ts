@@ -4,7 +4,7 @@
 /** The importance volume as a texture, and the points of it that are worth showing. */
 
 import { BufferAttribute, BufferGeometry, Data3DTexture, LinearFilter, RGBAFormat, UnsignedByteType } from "three";
-import type { ChannelName, ImportanceState, Ring, Storey } from "../client/state";
+import type { ChannelName, ImportanceState, Storey } from "../client/state";
 import { CUT_OVER_FLOOR_M } from "./clipping";
 
 export const MAX_POINTS = 20000;
@@ -63,24 +63,27 @@ export function choosePoints(map: ImportanceState, channel: ChannelName): Buffer
 const ENOUGH = 20;
 
 /**
- * Returns between which values, 0 to 1, the map lies where one walks: the 2nd and 98th percentile over the walkable floors, at the
- * height of a cut. The colours are spread over these: outdoors, values can be far from any indoors.
+ * Returns between which values, 0 to 1, the map lies where one walks: the 2nd and 98th percentile over the floors, at the height of
+ * a cut, each voxel once. The colours are spread over these: outdoors, values can be far from any indoors.
  */
 export function rangeIndoors(map: ImportanceState, channel: ChannelName, storeys: readonly Storey[]): [number, number] {
   const [nx, ny, nz] = map.shape;
   const [full, shown] = [channelIndex(map, "obstacle"), channelIndex(map, channel)];
+  const seen = new Uint8Array(nx * ny * nz);
   const values: number[] = [];
-  for (const { floorZ, outline } of storeys) {
-    const layer = Math.floor((floorZ + CUT_OVER_FLOOR_M - map.origin[2]) / map.voxelM);
-    if (layer < 0 || layer >= nz) continue;
-    for (let row = 0; row < ny; row++) {
-      const ends = crossings(outline, map.origin[1] + (row + 0.5) * map.voxelM);
-      for (let k = 0; k + 1 < ends.length; k += 2) {
-        const first = Math.max(0, Math.ceil((ends[k] - map.origin[0]) / map.voxelM - 0.5));
-        const last = Math.min(nx - 1, Math.floor((ends[k + 1] - map.origin[0]) / map.voxelM - 0.5));
-        for (let column = first; column <= last; column++) {
-          const at = 4 * (layer * nx * ny + row * nx + column);
-          if (map.data[at + full] <= 127) values.push(map.data[at + shown]);
+  const voxel = (value: number, axis: 0 | 1 | 2): number => (value - map.origin[axis]) / map.voxelM;
+  for (const { floor } of storeys) {
+    for (let tile = 0; tile < floor.length; tile += 5) {
+      const layer = Math.floor(voxel(floor[tile + 4] + CUT_OVER_FLOOR_M, 2));
+      if (layer < 0 || layer >= nz) continue;
+      const rows = within(voxel(floor[tile + 1], 1), voxel(floor[tile + 3], 1), ny);
+      const columns = within(voxel(floor[tile], 0), voxel(floor[tile + 2], 0), nx);
+      for (let row = rows[0]; row < rows[1]; row++) {
+        for (let column = columns[0]; column < columns[1]; column++) {
+          const at = layer * nx * ny + row * nx + column;
+          if (seen[at] || map.data[4 * at + full] > 127) continue;
+          seen[at] = 1;
+          values.push(map.data[4 * at + shown]);
         }
       }
     }
@@ -91,16 +94,9 @@ export function rangeIndoors(map: ImportanceState, channel: ChannelName, storeys
   return [percentile(0.02), percentile(0.98)];
 }
 
-/** Where a line along x meets the rings, rising: by the even-odd rule one is inside from each first to each second of them. */
-function crossings(rings: readonly Ring[], y: number): number[] {
-  const found: number[] = [];
-  for (const ring of rings) {
-    for (let i = 0, j = ring.length - 1; i < ring.length; j = i++) {
-      const [[ax, ay], [bx, by]] = [ring[i], ring[j]];
-      if (ay > y !== by > y) found.push(ax + ((y - ay) / (by - ay)) * (bx - ax));
-    }
-  }
-  return found.sort((a, b) => a - b);
+/** The voxels of an axis that a stretch of it meets: the first, and the one after the last. */
+function within(low: number, high: number, count: number): [number, number] {
+  return [Math.max(0, Math.floor(low + 1e-6)), Math.min(count, Math.ceil(high - 1e-6))];
 }
 
 /** A number from 0 up to 1 that looks random and is always the same for an index. */

@@ -6,7 +6,7 @@ import { makeWorld } from "../../src/scene/axes";
 import { Clip, CUT_OVER_FLOOR_M } from "../../src/scene/clipping";
 import { Miniature } from "../../src/scene/miniature";
 
-const storeys = [0, 3, 6].map((floorZ) => ({ name: `${floorZ}`, floorZ, outline: [] }));
+const storeys = [0, 3, 6].map((floorZ) => ({ name: `${floorZ}`, floorZ, floor: new Float32Array() }));
 
 function clip(): Clip {
   const made = new Clip();

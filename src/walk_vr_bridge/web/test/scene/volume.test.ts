@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { Channel, ImportanceState, Ring, Storey } from "../../src/client/state";
+import type { Channel, ImportanceState, Storey } from "../../src/client/state";
 import { choosePoints, MAX_POINTS, rangeIndoors } from "../../src/scene/volume";
 
 const NAMES = ["obstacle", "distance", "visibility", "importance"] as const;
@@ -50,9 +50,8 @@ describe("the points of a map", () => {
 });
 
 describe("the range of the colours", () => {
-  const around: Ring = [[2, 2], [18, 2], [18, 18], [2, 18]];
-  const hole: Ring = [[8, 8], [12, 8], [12, 12], [8, 12]];
-  const square: Storey = { name: "", floorZ: 0, outline: [around, hole] };
+  const around = [2, 2, 18, 8, 0, 2, 8, 8, 12, 0, 12, 8, 18, 12, 0, 2, 12, 18, 18, 0];
+  const square: Storey = { name: "", floorZ: 0, floor: Float32Array.from(around) };
 
   it("is that of the walkable floors: neither outdoors nor holes count", () => {
     const map = volume([20, 20, 3], (x, y) => {
@@ -63,6 +62,14 @@ describe("the range of the colours", () => {
     const [low, high] = rangeIndoors(map, "importance", [square]);
     expect(low).toBeCloseTo(51 / 255, 2);
     expect(high).toBeCloseTo((51 + 15 * 6.8) / 255, 2);
+  });
+
+  it("is read over each floor's own height, a voxel once", () => {
+    const map = volume([20, 20, 8], (_x, _y, z) => (z === 1 ? 60 : z === 4 ? 180 : 255));
+    const strips = Array.from({ length: 20 }, (_, k) => [k * 0.5, 0, k * 0.5 + 0.5, 2, 0]).flat();
+    const raised: Storey = { name: "", floorZ: 0, floor: Float32Array.from([...strips, 10, 0, 20, 2, 3]) };
+    const [low, high] = rangeIndoors(map, "importance", [raised]);
+    expect([low, high]).toEqual([60 / 255, 180 / 255]);
   });
 
   it("is the whole one where there is no walkable floor", () => {
