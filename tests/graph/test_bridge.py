@@ -130,9 +130,9 @@ def test_roslibpy_drives_a_whole_session(session):
 
     assert session.call("undo", "std_srvs/srv/Trigger")["success"]
     wait(lambda: new in session.keypoints(), "the keypoint back")
-    refused = session.edit(marker_name="999", event_type=5)
+    refused = session.edit(marker_name="999", event_type=5, pose={"position": {"x": 10.5, "y": 0.8, "z": 1.6}})
     assert refused["outcome"] == "refused"
-    assert refused["reason"]
+    assert "999" in refused["reason"]
 
 
 def test_parameters_are_described_and_set_through_the_bridge(session):
@@ -149,6 +149,16 @@ def test_parameters_are_described_and_set_through_the_bridge(session):
     value["value"]["double_value"] = 0.45
     assert session.call("trajopt/set_parameters_atomically", kind, parameters=[value])["result"]["successful"]
     wait(lambda: len(session.heard["path"]) > paths, "a path with the other clearance")
+
+
+@pytest.mark.parametrize("kind", ["SetParameters", "SetParametersAtomically"])
+def test_a_parameter_that_the_node_has_not_is_named(session, kind):
+    service = "set_parameters" + kind.removeprefix("SetParameters").lower().replace("atomically", "_atomically")
+    value = {"name": "trajopt.clearence_m", "value": {"type": 3, "double_value": 0.4}}
+    said = session.call(f"trajopt/{service}", f"rcl_interfaces/{kind}", parameters=[value])
+    result = said["result"] if "result" in said else said["results"][0]
+    assert not result["successful"]
+    assert result["reason"].startswith("trajopt has no parameter trajopt.clearence_m; ")
 
 
 def test_playback_is_seen_by_everybody(session, observer):

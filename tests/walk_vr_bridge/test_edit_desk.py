@@ -8,12 +8,16 @@ import pytest
 from bridge_server import receive, serving
 
 
+def at(x):
+    return {"position": {"x": x, "y": 0.0, "z": 0.0}}
+
+
 def test_answers_to_an_edit_go_to_its_client_alone_with_its_own_stamp(run, tmp_path):
     async def scene():
         async with serving(tmp_path) as served, served.ws() as mine, served.ws() as other:
             for ws in (mine, other):
                 await ws.send_json({"op": "subscribe", "topic": "/walk/edit_results"})
-            edit = {"marker_name": "3", "event_type": 5, "header": {"stamp": {"sec": 12}}}
+            edit = {"marker_name": "3", "event_type": 5, "header": {"stamp": {"sec": 12}}, "pose": at(1.0)}
             await mine.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
             await mine.send_json({"op": "call_service", "service": "/rosapi/services", "id": "1"})
             await receive(mine)
@@ -35,7 +39,7 @@ def test_of_fast_drags_the_newest_wins_and_the_release_is_last(run, tmp_path):
     async def scene():
         async with serving(tmp_path) as served, served.ws() as ws:
             for x in range(20):
-                edit = {"marker_name": "3", "event_type": 5 if x == 19 else 1, "pose": {"position": {"x": x}}}
+                edit = {"marker_name": "3", "event_type": 5 if x == 19 else 1, "pose": at(x)}
                 await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
             await asyncio.sleep(0.2)
             xs = [m.pose.position.x for m in served.graph.on("/walk/keypoint_edits")]
@@ -55,7 +59,7 @@ def test_edits_wait_in_order_until_the_planner_hears_them(run, tmp_path):
         async with serving(tmp_path) as served, served.ws() as ws:
             served.graph.heard = False
             for x in range(3):
-                edit = {"marker_name": "3", "event_type": 5, "pose": {"position": {"x": x}}}
+                edit = {"marker_name": "3", "event_type": 5, "pose": at(x)}
                 await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
             await asyncio.sleep(0.1)
             assert served.graph.on("/walk/keypoint_edits") == []
@@ -73,7 +77,7 @@ def test_an_edit_that_nobody_hears_in_time_is_told_and_never_sent(run, tmp_path,
         async with serving(tmp_path) as served, served.ws() as ws:
             await ws.send_json({"op": "subscribe", "topic": "/walk/edit_results"})
             served.graph.heard = False
-            edit = {"marker_name": "3", "event_type": 5, "header": {"stamp": {"sec": 7}}}
+            edit = {"marker_name": "3", "event_type": 5, "header": {"stamp": {"sec": 7}}, "pose": at(1.0)}
             await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
             await asyncio.sleep(0.2)
             served.site.operations.sweep()
@@ -89,7 +93,7 @@ def test_an_unsound_edit_is_refused_with_the_reason(run, tmp_path):
     async def scene():
         async with serving(tmp_path) as served, served.ws() as ws:
             await ws.send_json({"op": "subscribe", "topic": "/walk/edit_results"})
-            edit = {"marker_name": "3", "event_type": 5, "pose": {"position": {"x": None}}}
+            edit = {"marker_name": "3", "event_type": 5, "pose": at(None)}
             await ws.send_json({"op": "publish", "topic": "/walk/keypoint_edits", "msg": edit})
             answer = (await receive(ws))["msg"]
             assert answer["level"] == 1

@@ -124,6 +124,21 @@ def require_settable(parameters: Any) -> None:
             raise NotAllowedError(f"set {parameter.name[:80]}", "the value is NaN or infinite; expected a finite one")
 
 
+def name_unknown(service: str, parameters: Any, response: Any) -> None:
+    """Says in the answer to a request to set parameters which of them its node has not; rclpy names no way out."""
+    node = service.rsplit("/", 2)[-2]
+    names = [parameter.name for parameter in parameters]
+    # Set together there is one answer to all.
+    results = response.results if hasattr(response, "results") else [response.result]
+    told = names if hasattr(response, "results") else [" or ".join(names)]
+    for name, result in zip(told, results, strict=False):
+        if not result.successful and result.reason.startswith(_UNDECLARED):
+            result.reason = f"{node} has no parameter {name}; list_parameters and ./walk params say which there are"
+
+
+_UNDECLARED = "Invalid access to undeclared parameter"
+
+
 def _services() -> dict[str, Service]:
     services = {name: Service(type_name="std_srvs/Trigger", role="editor") for name in _TRIGGERS}
     services["play"] = Service(type_name="std_srvs/SetBool", role="editor")

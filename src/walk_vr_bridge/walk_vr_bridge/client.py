@@ -84,11 +84,13 @@ class Client:
         for frame in frames_of(message, listening.wish, self._sent):
             self.outbox.put(listening.topic, frame, ANSWERS)
 
-    def deliver_values(self, topic: str, values: Any) -> None:
-        """Puts a message of plain values, for this client alone, into the outbox, if it listens to the topic."""
+    def deliver_values(self, topic: str, values: Any) -> bool:
+        """Puts a message of plain values, for this client alone, into the outbox; False if it does not listen."""
         listening = self.listening.get(topic)
-        if listening is not None:
-            self.outbox.put(topic, Frame(text_frame(topic, values), text=True), listening.wish.depth)
+        if listening is None:
+            return False
+        self.outbox.put(topic, Frame(text_frame(topic, values), text=True), listening.wish.depth)
+        return True
 
     def answer(self, values: dict[str, Any]) -> None:
         """Sends an answer."""

@@ -13,10 +13,11 @@ from typing import Any
 from visualization_msgs.msg import InteractiveMarkerFeedback
 
 from walk_ros.conversions.checks import FRAME
-from walk_ros.conversions.edits import EditKind, edit_from_msg
+from walk_ros.conversions.edits import Change, EditKind, edit_from_msg
 from walk_ros.conversions.stamps import stamp_to_msg
 from walk_ros.errors import MessageError
 from walk_vr_bridge.client import Client
+from walk_vr_bridge.errors import ProtocolError
 from walk_vr_bridge.limits import EDIT_TIMEOUT_S
 
 DRAG_S = 1 / 90
@@ -159,6 +160,28 @@ class EditDesk:
             self._publish(self._unheard.popleft()[1])
         if self._unheard:
             loop.call_later(LOOK_AGAIN_S, self._send_unheard)
+
+
+def require_place(said: object, msg: Any) -> None:
+    """Raises ProtocolError where an edit that is about a place does not say which: fields left out are 0 in a message.
+
+    Args:
+        said: What the client wrote.
+        msg: The InteractiveMarkerFeedback that it became.
+    """
+    inserts = msg.event_type == EditKind.CHANGE.value and msg.menu_entry_id in _INSERTIONS and not msg.control_name
+    if msg.event_type not in _MOVES and not inserts:
+        return
+    position: object = said
+    for name in ("pose", "position"):
+        position = position.get(name) if isinstance(position, dict) else None
+    missing = [axis for axis in "xyz" if not isinstance(position, dict) or axis not in position]
+    if missing:
+        raise ProtocolError(f"msg.pose.position has no {', '.join(missing)}; expected x, y and z of the place [m]")
+
+
+_MOVES = (EditKind.DRAG.value, EditKind.RELEASE.value)
+_INSERTIONS = (Change.INSERT, Change.INSERT_NEAR)
 
 
 def label_of(msg: InteractiveMarkerFeedback) -> int:

@@ -10,9 +10,9 @@ from typing import Any, Protocol
 import orjson
 
 from walk_building.errors import WalkError
-from walk_vr_bridge.allowed import SESSION, Allowed, require_settable
+from walk_vr_bridge.allowed import SESSION, Allowed, name_unknown, require_settable
 from walk_vr_bridge.client import LEVELS, Client
-from walk_vr_bridge.edits import EditDesk, label_of, refusal
+from walk_vr_bridge.edits import EditDesk, label_of, refusal, require_place
 from walk_vr_bridge.errors import NotAllowedError, ProtocolError, UnreadableError
 from walk_vr_bridge.hub import Hub
 from walk_vr_bridge.limits import MAX_CALLS, MAX_FRAGMENTS, MAX_MESSAGE
@@ -104,8 +104,8 @@ class Operations:
 
     def _refuse_edit(self, client: Client, keypoint: str, label_ns: int, reason: str) -> None:
         values = refusal(client.identity, keypoint, label_ns, reason)
-        client.deliver_values(self._allowed.full("edit_results"), values)
-        client.status("error", reason)
+        if not client.deliver_values(self._allowed.full("edit_results"), values):
+            client.status("error", reason)
 
     def answered(self, topic: str, values: dict[str, Any]) -> None:
         """Hands an answer of the sequencer or trajopt on to the client whose edit it is about."""
@@ -148,17 +148,18 @@ class Operations:
         topic = self._allowed.topic(said.get("topic"), said.get("type"), self._allowed.said)
         msg = decoder(message_class(self._allowed.said[topic]))(said.get("msg", {}), "msg")
         if topic == self._edits_topic:
-            self._edit(client, topic, msg, said.get("type"))
+            self._edit(client, topic, msg, said)
             return
         self._allowed.publishing(topic, said.get("type"), client.role)
         if topic == self._allowed.full("study_events"):
             _sign(msg, client.identity, self._graph.now_ns())
         self._graph.publish(topic, msg)
 
-    def _edit(self, client: Client, topic: str, msg: Any, type_name: object) -> None:
+    def _edit(self, client: Client, topic: str, msg: Any, said: dict[str, Any]) -> None:
         label_ns = label_of(msg)
         try:
-            self._allowed.publishing(topic, type_name, client.role)
+            self._allowed.publishing(topic, said.get("type"), client.role)
+            require_place(said.get("msg"), msg)
             client.edits = True
             reason = self.desk.take(client, msg)
         except NotAllowedError as error:
@@ -190,6 +191,8 @@ class Operations:
             if response is None:
                 _respond(client, name, identity, reason, done=False)
             else:
+                if service.sets_parameters:
+                    name_unknown(full, request.parameters, response)
                 _respond(client, name, identity, encoder(cls.Response, "json")(response), done=True)
 
         self._graph.call(full, cls, request, done)

@@ -48,7 +48,7 @@ export class Orbit implements Viewpoint {
 
   fit(): void {
     const { store } = this.stage;
-    const bounds = extent(this.stage);
+    const bounds = extent(store.state.building, store.state.keypoints, this.stage.bounds);
     this.fitted = this.stage.models !== null;
     const { building, selection } = store.state;
     const size = bounds.getSize(SIZE);

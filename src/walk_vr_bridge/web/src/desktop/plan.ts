@@ -47,7 +47,7 @@ export class Plan implements Viewpoint {
 
   fit(): void {
     const { store, models } = this.stage;
-    const bounds = extent(this.stage);
+    const bounds = extent(store.state.building, store.state.keypoints, this.stage.bounds);
     this.fittedTo = (models && store.state.building?.hash) || "";
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
     const { left, right, top, bottom } = this.covered();

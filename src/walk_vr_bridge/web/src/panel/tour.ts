@@ -73,7 +73,7 @@ function orderChoice(method: Parameter, actions: Actions): Widget {
     value: method.value === "given" ? "given" : "auto",
     options: [
       { value: "given", label: "As I set it" },
-      { value: "auto", label: "Shortest" },
+      { value: "auto", label: "Automatic" },
     ],
     choose: (value) => void actions.setParameter(method, value),
   };
