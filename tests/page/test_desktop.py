@@ -161,6 +161,28 @@ def test_the_tour_plays_by_the_space_key_and_takes_one_along(desk):
     desk.click('[data-id="place"] [data-value="miniature"]')
 
 
+def test_who_is_inside_walks_along_and_a_step_of_ones_own_leaves_the_tour(desk):
+    eye = "walk.view.eye.toArray()"
+    off = "(([x, y], [a, , b]) => Math.hypot(x - a, -y - b))(walk.stage.player.position, walk.view.eye.toArray())"
+    desk.look("walk")
+    assert desk.page.js("return desk.state.settings.playbackPlace") == "miniature"
+    desk.page.js("walk.client.actions.seek(1)")
+    desk.page.js("await walk.client.actions.play()")
+    begin = desk.page.js(f"return {eye}")
+    desk.page.until(f"walk.view.eye.distanceTo({{x: {begin[0]}, y: {begin[1]}, z: {begin[2]}}}) > 0.3", "movement")
+    desk.page.until(f"{off} < 0.05", "the eye on the tour")
+    desk.page.js("""
+      const press = (kind) => new KeyboardEvent(kind, { code: "KeyS", key: "s", bubbles: true });
+      walk.view.renderer.domElement.dispatchEvent(press("keydown"));
+      for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
+      walk.view.renderer.domElement.dispatchEvent(press("keyup"));
+    """)
+    desk.page.until(f"desk.state.playback.playing && {off} > 0.5", "the tour to go on without one")
+    assert not desk.page.js("return walk.stage.riding")
+    desk.page.js("await walk.client.actions.stop()")
+    desk.look("orbit")
+
+
 def test_every_control_has_a_name_and_can_be_reached_by_keys(desk):
     for tab in ("tour", "view", "tune", "walk", "study"):
         desk.open(tab)

@@ -46,6 +46,7 @@ export class Desktop {
   private readonly page = element("div", "desktop");
   private presenting = false;
   private riding = false;
+  private playing = false;
   private covered: Covered = { left: 0, right: 0, top: 0, bottom: 0 };
 
   constructor(
@@ -143,14 +144,18 @@ export class Desktop {
     store.subscribe("playback", () => this.ride());
   }
 
-  /** Who walks along is inside. */
+  /** Who walks along is inside, and who is inside walks along. */
   private ride(): void {
     if (this.presenting) return;
     const { playback, settings } = this.client.store.state;
     const riding = playback.playing && settings.playbackPlace === "ride";
-    // Only as it begins: who looks another way meanwhile is left alone.
+    // Only as it begins: who looks another way or goes there meanwhile is left alone.
+    const begins = playback.playing && !this.playing;
+    if (riding !== this.riding) this.stroll.along = riding;
+    if (begins && this.current === this.stroll) this.stroll.along = true;
     if (riding && !this.riding) this.show("walk");
     this.riding = riding;
+    this.playing = playback.playing;
   }
 
   /** Opens a storey where none is open: on a roof nothing can be added. */

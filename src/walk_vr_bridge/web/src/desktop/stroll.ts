@@ -25,6 +25,8 @@ export class Stroll implements Viewpoint {
   readonly name = "walk";
   /** Keys that are held: forward, back, left, right, and fast. */
   readonly keys = { forward: 0, back: 0, left: 0, right: 0, fast: 0 };
+  /** Whether one is carried along the tour while it plays; a step of one's own leaves it. */
+  along = false;
   private readonly position = new Vector3();
   private heading = 0;
   private pitch = 0;
@@ -79,16 +81,18 @@ export class Stroll implements Viewpoint {
 
   /** The wheel steps ahead or back. */
   zoom(factor: number): void {
+    this.along = false;
     this.step(factor < 1 ? 0.4 : -0.4, 0);
   }
 
   get riding(): boolean {
-    const { playback, settings } = this.stage.store.state;
-    return playback.playing && settings.playbackPlace === "ride";
+    return this.along && this.stage.store.state.playback.playing;
   }
 
   frame(seconds: number): void {
     if (!this.placed) this.fit();
+    const { forward, back, left, right } = this.keys;
+    if (forward || back || left || right) this.along = false;
     this.stage.riding = this.riding;
     if (this.riding) this.ride(seconds);
     else this.stroll(seconds);

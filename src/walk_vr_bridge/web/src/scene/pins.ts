@@ -8,6 +8,8 @@ import { KEYPOINT } from "./palette";
 import { makePin } from "./pin";
 
 export const MAX_PINS = 256;
+/** How solid keypoints are that are dimmed. */
+export const DIM = 0.3;
 
 const VERTEX = `
 attribute float aDrop;
@@ -45,9 +47,14 @@ export class Pins {
   constructor(stemM: number) {
     const pin = makePin();
     this.plain = makeMesh(pin, stemM, 1);
-    this.dim = makeMesh(pin, stemM, 0.3);
+    this.dim = makeMesh(pin, stemM, DIM);
     this.dim.renderOrder = 31;
     this.group.add(this.plain, this.dim);
+  }
+
+  /** How solid those are that are dimmed, 0 to 1. */
+  setDimmed(opacity: number): void {
+    (this.dim.material as ShaderMaterial).uniforms.uOpacity.value = opacity;
   }
 
   get counts(): { plain: number; dimmed: number } {

@@ -15,7 +15,7 @@ import { loadModels, type Models } from "./models";
 import { Note } from "./note";
 import { Overlay } from "./overlay";
 import { paintPath } from "./pathview";
-import type { Showing } from "./pins";
+import { DIM, type Showing } from "./pins";
 import { PathTube } from "./tube";
 import type { View } from "./view";
 
@@ -33,6 +33,8 @@ const FULL_PATH_BELOW_M = 1.35;
 const REFUSAL_S = 6;
 /** A sentence is written so much larger than a keypoint's name: it has to be read through. */
 export const SENTENCE_TIMES = 2.2;
+/** How solid keypoints are that are seen through a roof. */
+const HIDDEN_BY_ROOF = 0.7;
 /** A keypoint in the miniature, in the room [m]. */
 const PIN_IN_HAND_M = 0.0075;
 
@@ -244,6 +246,8 @@ export class Stage {
     this.drawn = true;
     DRAWN.set(now);
     const thin = settings.surface === "transparent" || !this.models;
+    // Under a roof there are no others; under a cut they are those of the storeys below.
+    this.inMiniature.pins.setDimmed(miniature.clip.active ? DIM : HIDDEN_BY_ROOF);
     this.inMiniature.update(keypoints, (keypoint) => this.showingInMiniature(keypoint, thin), hover, selection.keypoint);
     this.inFull.update(keypoints, (keypoint) => this.showingInFull(keypoint, floor), hover, selection.keypoint);
   }
