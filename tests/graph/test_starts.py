@@ -95,3 +95,13 @@ def test_bad_arguments_end_with_one_sentence_and_code_2(graph, arguments, said):
     assert done.returncode == 2
     assert said in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_what_a_file_leaves_open_is_said_once(graph, observer):
+    """A mesh says no unit: who starts a graph on it must hear that metres are assumed, and not from every node."""
+    graph.start("importance")
+    graph.start("sequencer")
+    observer.wait(lambda: observer.last("tour"), "a tour")
+    log = graph.log("importance")
+    assert log.count("metres are assumed") == log.count("]: loaded ") > 0
+    assert "metres are assumed" not in graph.log("sequencer")

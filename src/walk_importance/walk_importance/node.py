@@ -76,6 +76,11 @@ class ImportanceNode(WalkNode):
         self._near.stop(STOP_S)
         super().destroy_node()
 
+    def after_loading(self, building: Building) -> None:
+        """Says what the file leaves open and what was made of it: once, though all nodes load it."""
+        for warning in building.warnings:
+            self.get_logger().warning(warning)
+
     def before_loading(self, source: Path, options: LoadOptions, walker: Walker) -> None:
         """Publishes what an earlier start with this file came to, if that is kept."""
         began = self.now_s()

@@ -110,6 +110,9 @@ class WalkNode(Node):
     def before_loading(self, source: Path, options: LoadOptions, walker: Walker) -> None:
         """May publish what is kept from an earlier start, in the worker's thread; the building is not loaded yet."""
 
+    def after_loading(self, building: Building) -> None:
+        """May say what the building is like, in the worker's thread."""
+
     def fail(self, stamp_ns: int) -> None:
         """Publishes empty, stamped messages, in the worker's thread."""
         raise NotImplementedError
@@ -266,6 +269,7 @@ class WalkNode(Node):
         self.diagnostics.building(path, self.building.hash)
         self.diagnostics.state("ready")
         self.get_logger().info(f"loaded {name} in {time.perf_counter() - began:.1f} s")
+        self.after_loading(self.building)
 
 
 def waiting(subscription: Any) -> Iterator[Any]:

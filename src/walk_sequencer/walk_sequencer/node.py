@@ -107,9 +107,10 @@ class SequencerNode(WalkNode):
             self.get_logger().info(f"the keypoints of an earlier session are put aside, in {aside}")
         self._authority = Authority(building, journal)
         if self._authority.keypoints.edited:
-            count, again = len(self._authority.keypoints.ids), "editing.restore false begins without"
+            count = len(self._authority.keypoints.ids)
             self.get_logger().info(
-                f"{count} keypoints edited in an earlier session are back, from {journal.path}; {again}"
+                f"{count} keypoints edited in an earlier session are back, from {journal.path}; the parameter "
+                "editing.restore false begins without them: ./walk up … --param sequencer.editing.restore=false"
             )
         self._rules = EditRules()
         return self._authority

@@ -56,7 +56,13 @@ export function viewSections(state: State, actions: Actions): Section[] {
     },
     { id: "map", title: "Map in the building", widgets: mapWidgets(state, actions) },
     { id: "path", title: "Path coloured by", widgets: pathWidgets(state, actions) },
+    ...(state.building?.warnings.length ? [{ id: "file", title: "About the file", widgets: fileWidgets(state) }] : []),
   ];
+}
+
+/** What the file left open, and what was made of it. */
+function fileWidgets({ building }: State): Widget[] {
+  return (building?.warnings ?? []).map((text, index) => ({ kind: "note", id: `warning:${index}`, text, tone: "warn" }));
 }
 
 function storeyChoice({ building, selection }: State, actions: Actions): Widget[] {
