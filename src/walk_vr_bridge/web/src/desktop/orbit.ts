@@ -15,8 +15,9 @@ const MOST_POLAR = 1.5;
 const LEAST_M = 1.5;
 /** Keypoints stay about this large in the picture: their radius over the distance. */
 const PIN_PART = 0.0085;
-/** A sphere around the building is larger than its picture: one comes this much nearer. */
-const SNUG = 0.97;
+const MARGIN = 1.05;
+/** What is seen of a storey that is cut [m]. */
+const CUT_M = 2;
 /** The camera glides to where it is sent [1/s]. */
 const GLIDE = 12;
 
@@ -59,9 +60,10 @@ export class Orbit implements Viewpoint {
     const { clientWidth: width, clientHeight: height } = this.view.renderer.domElement;
     const { left, right, top, bottom } = this.covered();
     const free = { width: Math.max(60, width - left - right), height: Math.max(60, height - top - bottom) };
-    const half = Math.tan(((this.view.camera.fov / 2) * Math.PI) / 180) * (free.height / height);
-    const radius = Math.hypot(size.x, size.y, floorZ === undefined ? size.z : 3) / 2;
-    wanted.distance = (SNUG * radius) / half / Math.min(1, free.width / free.height);
+    const perPx = (2 * Math.tan(((this.view.camera.fov / 2) * Math.PI) / 180)) / height;
+    const half = [size.x / 2, (floorZ === undefined ? size.z : CUT_M) / 2, size.y / 2] as const;
+    AT.setFromSphericalCoords(1, wanted.polar, wanted.azimuth);
+    wanted.distance = MARGIN * distanceFor(half, AT, (free.width / 2) * perPx, (free.height / 2) * perPx);
     this.jump();
   }
 
@@ -127,6 +129,25 @@ export class Orbit implements Viewpoint {
     const { left, right, top, bottom } = this.covered();
     this.view.camera.setViewOffset(width, height, (right - left) / 2, (bottom - top) / 2, width, height);
   }
+}
+
+/**
+ * How far a camera has to be from the middle of a box for all of it to be seen.
+ *
+ * @param half the box's half sides in the room.
+ * @param back from the middle to the camera, of length 1.
+ * @param tanX tangent of half the angle that is free for it sideways; `tanY` upright.
+ */
+export function distanceFor(half: readonly [number, number, number], back: Vector3, tanX: number, tanY: number): number {
+  const right = new Vector3(0, 1, 0).cross(back).normalize();
+  const up = back.clone().cross(right);
+  let distance = 0;
+  for (let corner = 0; corner < 8; corner++) {
+    const at = new Vector3(...half.map((side, axis) => (corner & (1 << axis) ? side : -side)));
+    const needed = Math.max(Math.abs(at.dot(right)) / tanX, Math.abs(at.dot(up)) / tanY);
+    distance = Math.max(distance, at.dot(back) + needed);
+  }
+  return distance;
 }
 
 const SIZE = new Vector3();

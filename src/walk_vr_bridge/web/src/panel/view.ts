@@ -62,7 +62,7 @@ export function viewSections(state: State, actions: Actions): Section[] {
 
 /** What the file left open, and what was made of it. */
 function fileWidgets({ building }: State): Widget[] {
-  return (building?.warnings ?? []).map((text, index) => ({ kind: "note", id: `warning:${index}`, text, tone: "warn" }));
+  return (building?.warnings ?? []).map((text, index) => ({ kind: "note", id: `warning:${index}`, text, tone: "plain" }));
 }
 
 function storeyChoice({ building, selection }: State, actions: Actions): Widget[] {
