@@ -8,9 +8,11 @@ import itertools
 
 import numpy as np
 import pytest
+import trimesh
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from scenes import box, building_of, shell
 
 from walk_building import BodySweep, Building, ParameterError
 from walk_trajopt.check import PathCheck
@@ -189,3 +191,43 @@ def test_any_walk_in_an_empty_room_is_free_and_finite(hall: Building, xy: list[t
     assert np.isfinite(path.points).all()
     assert path.colliding == () and swept_free(hall, path.points)
     np.testing.assert_allclose(path.points[[0, -1]], tour[[0, -1]], atol=1e-9)
+
+
+def half_level() -> Building:
+    """A room with a podium of half a metre and a ramp up to it, open at its side."""
+    low, high = [(0.1, 2.0, 0.0), (1.4, 2.0, 0.0)], [(0.1, 3.5, 0.5), (1.4, 3.5, 0.5)]
+    feet = [(0.1, 3.5, 0.0), (1.4, 3.5, 0.0)]
+    ramp = trimesh.convex.convex_hull(np.array(low + high + feet))
+    return building_of([*shell(4.8, 6.0), box((0.0, 3.5, 0.0), (4.8, 6.0, 0.5)), ramp])
+
+
+def floor_below(building: Building, points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The height of the first triangle straight below, every 2 cm along a path, by trimesh."""
+    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    every = np.arange(0, arc[-1], 0.02)
+    along = np.column_stack([np.interp(every, arc, points[:, axis]) for axis in range(3)])
+    mesh = trimesh.Trimesh(building.geometry.vertices, building.geometry.faces, process=False)
+    found, ray, _ = mesh.ray.intersects_location(along, np.tile([0.0, 0.0, -1.0], (len(along), 1)))
+    floor = np.full(len(along), -np.inf)
+    np.maximum.at(floor, ray, found[:, 2])
+    return floor
+
+
+def test_nobody_steps_off_the_side_of_a_ramp() -> None:
+    # The body meets nothing there: it hangs from an eye that goes on smoothly from the one height to the other.
+    building = half_level()
+    tour = np.array([(0.75, 5, 2.1), (0.75, 3.5, 2.1), (0.75, 1.9, 1.6), (1.9, 1.9, 1.6), (2.1, 3.0, 1.6)])
+    for config in (
+        TrajoptConfig(),
+        TrajoptConfig(weight_length=1.0),
+        TrajoptConfig(weight_deviation=0, weight_length=3),
+    ):
+        path = optimise_path(building, tour, tour[[0, -1]], config)
+        assert swept_free(building, path.points)
+        # Places stand for a tenth of a metre of the ramp, over which it rises by 3 cm.
+        assert np.abs(np.diff(floor_below(building, path.points))).max() <= building.walker.step_m + 0.05
+    assert path.repaired, "the scene does not tempt"
+    line = np.array([(0.75, 3.3, 2.03), (1.3, 3.2, 2.0), (2.2, 3.1, 1.6)])
+    assert PathCheck(building.geometry, building.walker).segments_free(line).all()
+    found = PathCheck(building.geometry, building.walker, building.surface).segments_free(line)
+    assert found.tolist() == [True, False]

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The walkthrough planner's authors
 # SPDX-License-Identifier: Apache-2.0
-"""The guarantee: the walker's body swept along every segment of a path against the exact geometry."""
+"""The guarantee: the walker's body swept along a path against the exact geometry, by steps it can take."""
 
 from __future__ import annotations
 
@@ -9,7 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from walk_building.body import axis_distance_sq
+from walk_building.bvh import first_hit
 from walk_building.geometry import Geometry
+from walk_building.surface import WalkableSurface
+from walk_building.surface_kernels import place_in_column
 from walk_building.sweep import CONTACT_M
 from walk_building.walker import Walker
 
@@ -18,19 +21,24 @@ from walk_building.walker import Walker
 _MARGIN_M = 1e-4
 _ROUNDING_M = 1e-9
 _AHEAD_M = 0.4  # how far ahead is looked at least: fewer questions, each a little longer
+_STRIDE_M = 0.1  # the floor is looked at so often along a path; a tread is no shorter
+_LEDGE_M = 0.02  # a step may be so much higher: places stand for the floor about them
 
 
 class PathCheck:
     """Says which segments of a path the body passes, by the exact distance between the body's axis and the triangles.
+
+    With the surface also whether a walker could: off the side of a ramp the body meets nothing and yet nobody goes.
 
     In compiled code and a little stricter than `walk_building.BodySweep`, which the tests hold it to. What one sweep
     has found out about the room around a path spares the next one, of a path near by, most of its questions; the
     answers are the same. Not safe to share between threads.
     """
 
-    def __init__(self, geometry: Geometry, walker: Walker) -> None:
+    def __init__(self, geometry: Geometry, walker: Walker, surface: WalkableSurface | None = None) -> None:
         self._geometry = geometry
         self._walker = walker
+        self._surface = surface
         self._balls = np.empty((0, 4))
 
     def segments_free(self, eye_path: NDArray[np.float64], *, remember: bool = False) -> NDArray[np.bool_]:
@@ -48,6 +56,9 @@ class PathCheck:
             eyes = np.ascontiguousarray(eye_path)
             balls = _sweep(self._geometry.bvh, eyes, (low, high), contact, free, self._balls)
             self._balls = balls if remember else self._balls
+            if self._surface is not None:
+                limit = self._surface.step_m + _LEDGE_M
+                _step(self._surface.grid, self._geometry.bvh, eyes, walker.eye_height_m, limit, free)
         return free
 
 
@@ -111,6 +122,37 @@ def _sweep(bvh, eyes, ends, contact, free, balls):
             if at >= length:
                 break
     return found[:used].copy()
+
+
+@numba.njit(cache=True, nogil=True)
+def _step(grid, bvh, eyes, eye_height, limit, free):
+    """Clears `free` for each segment of the eye path (n, 3) on which the floor rises or falls by more than a limit."""
+    before = _floor(grid, bvh, eyes[0], eye_height, limit)
+    at = np.empty(3)
+    for i in range(len(free)):
+        parts = max(int(np.ceil(_apart(eyes[i], eyes[i + 1]) / _STRIDE_M)), 1)
+        for k in range(1, parts + 1):
+            at[:] = eyes[i] + (eyes[i + 1] - eyes[i]) * (k / parts)
+            floor = _floor(grid, bvh, at, eye_height, limit)
+            free[i] &= abs(floor - before) <= limit
+            before = floor
+
+
+@numba.njit(cache=True, nogil=True)
+def _floor(grid, bvh, eye, eye_height, limit):
+    """Height of the floor that a walker stands on here: of a place around, else of what is right below the eye."""
+    z = eye[2] - eye_height
+    i, j = int(np.floor((eye[0] - grid.origin_x) / grid.cell)), int(np.floor((eye[1] - grid.origin_y) / grid.cell))
+    best, off = 0.0, np.inf
+    for di in range(2):
+        for dj in range(2):
+            p = place_in_column(grid, i + di, j + dj, z, 2.0 * limit)
+            if p >= 0 and abs(grid.places[p, 2] - z) < off:
+                best, off = grid.places[p, 2], abs(grid.places[p, 2] - z)
+    if off < np.inf:
+        return best
+    t, _ = first_hit(bvh, eye[0], eye[1], eye[2], 0.0, 0.0, -1.0, np.inf)
+    return eye[2] - t
 
 
 @numba.njit(cache=True, nogil=True)

@@ -27,7 +27,7 @@ class Guard:
     """Holds a state's way to the guarantee."""
 
     def __init__(self, building: Building, chord_error_m: float) -> None:
-        self._check = PathCheck(building.geometry, building.walker)
+        self._check = PathCheck(building.geometry, building.walker, building.surface)
         self._chord_error_m = chord_error_m
 
     def passes(self, state: State) -> bool:
