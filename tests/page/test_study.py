@@ -11,6 +11,8 @@ from walk_vr_bridge.study import scores_from_events
 
 pytestmark = pytest.mark.ros
 
+MODE = "desk.state.parameters.find(({ name }) => name === 'trajopt.mode').value"
+
 
 @pytest.fixture
 def desk(browser, graph):
@@ -39,9 +41,7 @@ def test_a_study_is_told_to_the_graph_and_scores_as_the_instruments_prescribe(de
     desk.open("study")
     desk.press("begin")
     for condition in ("catmull_rom", "optimised"):
-        desk.page.until(
-            f"desk.state.parameters.find(({{ name }}) => name === 'trajopt.mode').value === '{condition}'", condition
-        )
+        desk.page.until(f"{MODE} === '{condition}'", condition)
         for _ in range(3):
             desk.press("task-begin")
             desk.press("task-done")
@@ -65,3 +65,21 @@ def test_a_study_is_told_to_the_graph_and_scores_as_the_instruments_prescribe(de
         assert mine.raw_tlx == pytest.approx(theirs["rawTlx"]) == 40.0
         assert mine.weighted_tlx == pytest.approx(theirs["weightedTlx"]) == 40.0
         assert list(mine.task_s) == pytest.approx(theirs["taskS"], abs=1e-3)
+
+
+@pytest.mark.parametrize("before", ["optimised", "b_spline"])
+def test_a_study_that_is_broken_off_leaves_the_optimiser_as_it_was(desk, before):
+    set_mode = """
+      const mode = desk.state.parameters.find(({ name }) => name === "trajopt.mode");
+      return walk.client.actions.setParameter(mode, MODE);
+    """
+    assert desk.page.js(set_mode.replace("MODE", repr(before)))
+    desk.open("study")
+    desk.press("begin")
+    desk.page.until(f"{MODE} === 'catmull_rom'", "the first condition")
+    desk.press("break-off")
+    desk.page.until(f"{MODE} === '{before}'", "the mode before")
+    asked = 'await walk.client.ask("trajopt/get_parameters", { names: ["trajopt.mode"] })'
+    desk.page.until(f"({asked}).values[0].string_value === '{before}'", "the planner's own mode")
+    assert desk.page.js("return document.querySelectorAll('[data-id=\"not-set-back\"]').length") == 0
+    desk.page.js(set_mode.replace("MODE", "'optimised'"))

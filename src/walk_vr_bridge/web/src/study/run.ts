@@ -13,6 +13,8 @@ export interface RunPort {
   now(): number;
   /** Switches the optimiser for a condition. */
   use(condition: Condition): void;
+  /** Remembers how the optimiser is set; what it returns sets it so again. */
+  remember(): () => void;
 }
 
 export interface Scores {
@@ -36,6 +38,7 @@ export class StudyRun {
   private taskIndex = 0;
   private taskS: number[] = [];
   private begunMs = 0;
+  private putBack: () => void = () => undefined;
 
   constructor(
     private readonly log: StudyLog,
@@ -63,6 +66,7 @@ export class StudyRun {
     this.participant = participant;
     this.conditionIndex = 0;
     this.scores.length = 0;
+    this.putBack = this.port.remember();
     this.tell("participant", `Participant ${participant} begins`, { order: order.join(" ") });
     this.beginCondition();
   }
@@ -130,11 +134,12 @@ export class StudyRun {
     this.question = Math.max(0, this.question - 1);
   }
 
-  /** Ends the study before its end; what was recorded stays. */
+  /** Ends the study before its end; what was recorded stays, and the optimiser is as it was before. */
   breakOff(): void {
     if (this.step === "idle" || this.step === "done") return;
     this.tell("end", "The study was broken off", { complete: "false" });
     this.step = "idle";
+    this.putBack();
   }
 
   private leaveOut(): void {
@@ -184,6 +189,7 @@ export class StudyRun {
     this.conditionIndex = 1;
     this.step = "done";
     this.tell("end", "The study ends", { complete: "true" });
+    this.putBack();
   }
 
   private tell(name: EventName, message: string, values: Record<string, string>): void {

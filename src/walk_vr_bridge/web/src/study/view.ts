@@ -3,6 +3,7 @@
 /** The Study tab: the steps of a run as widgets of the panel. */
 
 import type { Client } from "../client/client";
+import type { ParameterValue } from "../client/state";
 import { button } from "../panel/buttons";
 import { optimiserSwitch } from "../panel/optimiser";
 import type { Button, Section, Widget } from "../panel/widgets";
@@ -20,6 +21,8 @@ export class StudyView {
   readonly log: StudyLog;
   readonly run: StudyRun;
   private participant = 1;
+  /** What the optimiser could not be set back to; null: nothing. */
+  private owed: ParameterValue | null = null;
   private readonly listeners: (() => void)[] = [];
 
   constructor(
@@ -28,7 +31,11 @@ export class StudyView {
     now: () => number = Date.now,
   ) {
     this.log = new StudyLog((message) => client.publishStudyEvent(message));
-    this.run = new StudyRun(this.log, { now, use: (condition) => this.use(condition) });
+    this.run = new StudyRun(this.log, {
+      now,
+      use: (condition) => this.use(condition),
+      remember: () => this.remember(),
+    });
     client.store.subscribe("connection", () => this.log.flush());
   }
 
@@ -87,6 +94,7 @@ export class StudyView {
         ];
     return [
       ...done,
+      ...this.unset(),
       note("about", text, "plain"),
       {
         kind: "stepper",
@@ -211,6 +219,36 @@ export class StudyView {
   private use(condition: Condition): void {
     const found = optimiserSwitch(this.client.store.state.parameters);
     if (found) void this.client.actions.setParameter(found.parameter, found.valueFor(condition === "optimiser_on"));
+  }
+
+  /** The optimiser as it is now, whichever way the study leaves it. */
+  private remember(): () => void {
+    this.owed = null;
+    const before = optimiserSwitch(this.client.store.state.parameters)?.parameter.value;
+    return () => {
+      if (before !== undefined) void this.setBack(before);
+    };
+  }
+
+  private async setBack(value: ParameterValue): Promise<void> {
+    const now = optimiserSwitch(this.client.store.state.parameters)?.parameter;
+    if (!now || now.value === value) return;
+    const taken = await this.client.actions.setParameter(now, value);
+    this.change(() => (this.owed = taken ? null : value));
+  }
+
+  /** Says that the optimiser is not as it was before the study, until it is. */
+  private unset(): Widget[] {
+    const { owed } = this;
+    const now = optimiserSwitch(this.client.store.state.parameters)?.parameter;
+    if (owed === null || now?.value === owed) return [];
+    const text = `The optimiser could not be set back to how it was before the study: ${owed}.`;
+    return [
+      note("not-set-back", text, "warn"),
+      this.press("set-back", "Set it back", () => void this.setBack(owed), {
+        disabled: this.client.store.state.session.role !== "editor",
+      }),
+    ];
   }
 
   private press(id: string, label: string, run: () => void, more: Partial<Button> = {}): Button {

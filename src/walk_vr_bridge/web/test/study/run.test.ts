@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The walkthrough planner's authors
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
+import { showValue } from "../../src/client/parameters";
+import type { Parameter, ParameterValue } from "../../src/client/state";
 import { orderOf, TASKS } from "../../src/study/design";
-import { eventsToCsv, eventsToJson } from "../../src/study/events";
+import { eventsToCsv, eventsToJson, StudyLog } from "../../src/study/events";
+import { StudyRun } from "../../src/study/run";
 import { susScore } from "../../src/study/sus";
 import { TLX_PAIRS, TLX_SCALES } from "../../src/study/tlx";
 import { find, setUp, widgets } from "../panel/fixtures";
@@ -142,6 +145,66 @@ describe("a study", () => {
     find(world.model, "button", "break-off").run();
     expect(world.study.run.step).toBe("idle");
     expect(world.study.log.events.at(-1)).toMatchObject({ name: "end", values: { complete: "false" } });
+  });
+});
+
+describe("the optimiser after a study", () => {
+  const MODE = "trajopt.mode";
+
+  /** The planner takes what it is asked for, unless it is out of reach. */
+  function planner(world: World, before: string): { reached: boolean; mode: () => unknown } {
+    const mode = (): unknown => world.store.state.parameters.find(({ name }) => name === MODE)!.value;
+    const link = { reached: true, mode };
+    showValue(world.store, MODE, before);
+    const setParameter = ({ name }: Parameter, value: ParameterValue): Promise<boolean> => {
+      if (link.reached) showValue(world.store, name, value);
+      return Promise.resolve(link.reached);
+    };
+    Object.defineProperty(world.client, "actions", { value: { setParameter } });
+    return link;
+  }
+
+  it.each(["optimised", "catmull_rom", "b_spline"])("is as it was before, %s, broken off or not", (before) => {
+    const world = setUp();
+    const { mode } = planner(world, before);
+    world.model.open("study");
+    find(world.model, "button", "begin").run();
+    expect(mode()).toBe("catmull_rom");
+    find(world.model, "button", "break-off").run();
+    expect(mode()).toBe(before);
+    find(world.model, "button", "begin").run();
+    goThrough(world, 1);
+    expect(mode()).toBe("optimised");
+    goThrough(world, 1);
+    expect([world.study.run.step, mode()]).toEqual(["done", before]);
+  });
+
+  it("is said not to be where that cannot be sent, and can be set back later", async () => {
+    const world = setUp();
+    const link = planner(world, "b_spline");
+    world.model.open("study");
+    find(world.model, "button", "begin").run();
+    link.reached = false;
+    find(world.model, "button", "break-off").run();
+    await Promise.resolve();
+    expect(find(world.model, "note", "not-set-back").text).toContain("b_spline");
+    link.reached = true;
+    find(world.model, "button", "set-back").run();
+    await Promise.resolve();
+    expect(link.mode()).toBe("b_spline");
+    expect(() => find(world.model, "note", "not-set-back")).toThrow();
+  });
+
+  it("is set back once, by who has begun", () => {
+    let times = 0;
+    const port = { now: () => 0, use: () => undefined, remember: () => () => void times++ };
+    const run = new StudyRun(new StudyLog(() => true), port);
+    run.breakOff();
+    expect(times).toBe(0);
+    run.begin(1);
+    run.breakOff();
+    run.breakOff();
+    expect(times).toBe(1);
   });
 });
 
