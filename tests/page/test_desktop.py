@@ -158,6 +158,13 @@ def test_the_tour_plays_by_the_space_key_and_takes_one_along(desk):
     desk.page.until(f"walk.view.eye.distanceTo({{x: {begin[0]}, y: {begin[1]}, z: {begin[2]}}}) > 0.3", "movement")
     desk.page.key(" ")
     desk.page.until("!desk.state.playback.playing", "the pause")
+    # One stands where the figure would: it is not drawn before the eyes.
+    figure = "walk.stage.inFull.walker.visible"
+    off = "(([x, y], [a, , b]) => Math.hypot(x - a, -y - b))(walk.stage.player.position, walk.view.eye.toArray())"
+    desk.settle()
+    assert desk.page.js(f"return [{off} < 0.5, {figure}]") == [True, False]
+    desk.page.js("walk.client.actions.seek(0.8 * desk.state.playback.durationS)")
+    desk.page.until(f"{off} > 1 && {figure}", "the figure farther away")
     desk.click('[data-id="place"] [data-value="miniature"]')
 
 

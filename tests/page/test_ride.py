@@ -62,6 +62,7 @@ def test_ride_carries_the_rig_along_the_path_and_any_button_stops_it(headset):
       rode.phase = walk.room.rider.ride.phase;
       const stopped = walk.view.eye.toArray();
       await hands.frames(10);
+      rode.paused = { off: hands.offTour(), figure: walk.stage.inFull.walker.visible };
       rode.drift = Math.hypot(walk.view.eye.x - stopped[0], walk.view.eye.z - stopped[2]);
       return rode;
     """
@@ -74,6 +75,7 @@ def test_ride_carries_the_rig_along_the_path_and_any_button_stops_it(headset):
     assert not ridden["figure"]
     assert ridden["phase"] == "strayed"
     assert ridden["drift"] < 1e-6
+    assert ridden["paused"]["off"] < 0.5 and not ridden["paused"]["figure"]
 
 
 def test_who_strays_is_led_back_and_the_tour_goes_on(headset):

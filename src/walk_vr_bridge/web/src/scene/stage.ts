@@ -18,6 +18,7 @@ import { paintPath } from "./pathview";
 import { DIM, type Showing } from "./pins";
 import { PathTube } from "./tube";
 import type { View } from "./view";
+import { fillsView } from "./walker";
 
 /**
  * How the building is shown. `room`: full scale and miniature at once, as in the headset. `model`: only the miniature, at full size
@@ -276,7 +277,8 @@ export class Stage {
       const q = this.player.quat;
       overlay.walk(this.player.position, headingOf(q[0], q[1], q[2], q[3]), this.eyeHeightM);
     }
-    if (this.riding) this.inFull.walker.visible = false;
+    // Also when the ride pauses, the user stands where the figure would.
+    if (this.riding || fillsView(this.player.position, this.view.eye)) this.inFull.walker.visible = false;
   }
 
   /** True while the user rides the tour: the figure would stand in the user's head. */
