@@ -220,3 +220,63 @@ def test_left_handed_users_have_it_the_other_way_round(page):
     """)
     assert bins[0] > 0.3 and bins[1] < -0.3
     assert angle == pytest.approx(-math.pi / 6)
+
+
+SEEN = """
+  const { bvh } = walk.stage.models;
+  const { eye } = walk.view;
+  const { panel } = walk.room;
+  const corners = [[0, 0], [-1, -1], [-1, 1], [1, -1], [1, 1]]
+    .map(([x, y]) => eye.clone().set((x * panel.widthM) / 2, (y * panel.heightM) / 2, 0));
+  panel.group.updateMatrixWorld();
+  const way = (to) => {
+    const [d, off] = [to.clone().sub(eye).normalize(), to.distanceTo(eye)];
+    const hit = bvh.cast(eye.x, -eye.z, eye.y, d.x, -d.z, d.y, 0, off);
+    return { off, free: hit.distance === Infinity };
+  };
+  return {
+    panel: corners.map((at) => way(panel.group.localToWorld(at))),
+    bin: way(walk.stage.bin.group.position),
+    miniature: way(walk.stage.inMiniature.place.toRoom(eye.clone().set(6, 2, -0.2), eye.clone())),
+    side: panel.group.position.clone().sub(eye).applyAxisAngle({ x: 0, y: 1, z: 0 }, -walk.view.rig.rotation.y).x,
+  };
+"""
+
+
+@pytest.mark.parametrize(
+    ("turn", "hand", "side"),
+    # Turned so far to the left with a wall at the west; where the panel hangs, -1 at the left.
+    [(0, "right", 1), (0, "left", 1), (math.pi, "left", -1), (math.pi / 2, "right", -1), (-math.pi / 2, "right", -1)],
+)
+def test_nothing_at_hand_is_behind_the_wall_that_one_stands_beside(page, turn, hand, side):
+    seen = page.js(
+        f"""
+      walk.client.actions.set({{ hand: "{hand}" }});
+      walk.view.rig.rotation.y = {turn};
+      await hands.frames(2);
+      // A quarter of a metre from the wall between two rooms, away from its doorway.
+      walk.room.rig.headTo(4.35, 0, -2.8);
+      await hands.frames(2);
+      walk.room.bringToHand();
+      walk.client.actions.set({{ hand: "right" }});
+    """
+        + SEEN
+    )
+    for corner in seen["panel"]:
+        assert corner["free"] and corner["off"] > 0.29
+    for name in ("bin", "miniature"):
+        assert seen[name]["free"] and seen[name]["off"] > 0.29
+    assert seen["side"] * side > 0.2
+
+
+def test_everything_comes_to_hand_where_there_is_no_building_yet(page):
+    off = page.js("""
+      const { models } = walk.stage;
+      walk.stage.models = null;
+      walk.room.rig.headTo(4.35, 0, -2.8);
+      await hands.frames(1);
+      walk.room.bringToHand();
+      walk.stage.models = models;
+      return walk.room.panel.group.position.clone().sub(walk.view.eye).toArray();
+    """)
+    assert off == pytest.approx([-0.58, 1.25 - 1.6, -0.52], abs=0.02)

@@ -4,9 +4,9 @@
 import { Matrix4, Vector3 } from "three";
 import type { Actions } from "../client/actions";
 import type { Store } from "../client/store";
-import { MINIATURE_M } from "../scene/miniature";
 import { SENTENCE_TIMES, type Stage, type StageMode } from "../scene/stage";
 import type { View } from "../scene/view";
+import { AtHand } from "./at_hand";
 import { Carry } from "./carry";
 import { Comfort } from "./comfort";
 import { Handler, type HandlerWorld } from "./handler";
@@ -18,11 +18,6 @@ import { Rider } from "./rider";
 import { Rig } from "./rig";
 import { Travel } from "./travel";
 
-/** Where things are put up around the user, in front of the head's heading: right, up from the floor, ahead [m]. */
-const MINIATURE_AT = [0, 0.82, 0.62] as const;
-const BIN_AT = [0.44, 0.92, 0.46] as const;
-const PANEL_AT = [-0.58, 1.25, 0.52] as const;
-
 /** The headset: both hands at work in a room with the building around and the miniature at hand. */
 export class XrRoom implements HandlerWorld {
   readonly inputs: Inputs;
@@ -33,6 +28,7 @@ export class XrRoom implements HandlerWorld {
   readonly knobs: Knobs;
   readonly handlers: readonly [Handler, Handler];
   private readonly looks = new Map<HandInput, HandLook>();
+  private readonly atHand: AtHand;
   private readonly carry = new Carry();
   private carriers = 0;
   private before: StageMode = "model";
@@ -48,6 +44,7 @@ export class XrRoom implements HandlerWorld {
   ) {
     const { bin, miniature } = stage;
     this.rig = new Rig(view, miniature, panel ? [bin.group, panel.group] : [bin.group]);
+    this.atHand = new AtHand(view, stage, panel);
     this.knobs = new Knobs(stage);
     this.travel = new Travel(stage, this.rig, this.comfort);
     this.rider = new Rider(stage, store, actions, this.rig, this.travel, this.comfort);
@@ -82,19 +79,9 @@ export class XrRoom implements HandlerWorld {
     this.travel.beginAim(hand);
   }
 
-  /** Puts miniature, bin and panel up around the user; the panel on the side of the weaker hand. */
+  /** Puts miniature, bin and panel up around the user; the panel on the side of the weaker hand, if there is room. */
   bringToHand(): void {
-    this.view.camera.getWorldDirection(AHEAD);
-    AHEAD.y = 0;
-    AHEAD.normalize();
-    const heading = Math.atan2(-AHEAD.x, -AHEAD.z);
-    const side = this.store.state.settings.hand === "right" ? 1 : -1;
-    this.stage.miniature.placeAt(this.around(MINIATURE_AT, side), heading, MINIATURE_M / this.longest());
-    this.stage.bin.group.position.copy(this.around(BIN_AT, side));
-    if (!this.panel) return;
-    this.panel.group.position.copy(this.around(PANEL_AT, side));
-    const { x, z } = this.panel.group.position;
-    this.panel.group.rotation.set(0, Math.atan2(this.view.eye.x - x, this.view.eye.z - z), 0);
+    this.atHand.bring(this.store.state.settings.hand === "right" ? 1 : -1);
   }
 
   /** While the tour carries the user, nothing hangs in front of the eyes. */
@@ -102,21 +89,6 @@ export class XrRoom implements HandlerWorld {
     this.stage.miniature.group.visible = !clear;
     this.stage.bin.group.visible = !clear;
     if (this.panel) this.panel.group.visible = !clear;
-  }
-
-  private longest(): number {
-    const size = this.stage.bounds.getSize(new Vector3());
-    return Math.max(size.x, size.y, size.z, 0.1);
-  }
-
-  private around(offset: readonly [number, number, number], side: number): Vector3 {
-    const { eye } = this.view;
-    AT.copy(eye).addScaledVector(AHEAD, offset[2]);
-    AT.x -= AHEAD.z * offset[0] * side;
-    AT.z += AHEAD.x * offset[0] * side;
-    // Lower for who sits: things keep their distance under the eyes.
-    AT.y = this.view.rig.position.y + offset[1] * Math.min(1, Math.max(0.5, (eye.y - this.view.rig.position.y) / 1.6));
-    return AT;
   }
 
   private show(visible: boolean): void {
