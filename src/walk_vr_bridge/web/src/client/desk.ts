@@ -9,6 +9,7 @@ import { KeypointView } from "./keypoint_view";
 import { Outbox, type Outcome } from "./outbox";
 import type { Quat, Vec3 } from "./state";
 import type { Store } from "./store";
+import { byPlace } from "./words";
 import type { Clock } from "./wire";
 
 const REFUSALS_KEPT = 8;
@@ -94,9 +95,10 @@ export class EditDesk {
     this.outbox.reconnected();
   }
 
-  refuse(keypoint: number | null, place: Vec3 | null, reason: string, preview = false): void {
+  refuse(keypoint: number | null, place: Vec3 | null, why: string, preview = false): void {
     const atMs = this.clock.now();
-    const { refusals } = this.store.state;
+    const { keypoints, refusals } = this.store.state;
+    const reason = byPlace(why, keypoints);
     const last = refusals.at(-1);
     const recent = last && last.keypoint === keypoint && atMs - last.atMs < SAME_REFUSAL_MS;
     if (recent && (preview || last.reason === reason)) return;

@@ -110,7 +110,7 @@ function itemOf(keypoint: Keypoint, index: number, chosen: boolean, actions: Act
     kind: "item",
     id: `keypoint:${id}`,
     number: String(index + 1),
-    title: label || `Keypoint ${id}`,
+    title: label || `Keypoint ${index + 1}`,
     detail: unreachable || marks.filter(Boolean).join(" · "),
     tone: unreachable ? "warn" : start ? "start" : end ? "end" : "plain",
     chosen,

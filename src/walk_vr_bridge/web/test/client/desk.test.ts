@@ -118,6 +118,13 @@ describe("a release", () => {
     expect(store.state.refusals).toMatchObject([{ keypoint: 3, place: [1, 9, 1.6], reason: "in a wall" }]);
   });
 
+  it("is refused by the number that is shown, which is the keypoint's place in the tour", async () => {
+    const done = desk.release(4, [6, 0, 1.6]);
+    answer(sent.at(-1)!, "refused", { reason: "keypoint 4 is locked: unlock it first" });
+    await done;
+    expect(store.state.refusals).toMatchObject([{ keypoint: 4, reason: "keypoint 2 is locked: unlock it first" }]);
+  });
+
   it("that is answered late does not take back a newer one", async () => {
     const first = desk.release(3, [1, 0, 1.6]);
     void desk.release(3, [2, 0, 1.6]);
