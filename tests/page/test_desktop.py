@@ -102,6 +102,35 @@ def test_what_is_refused_goes_back_and_is_told_where_it_happened(desk):
     desk.page.until("document.querySelectorAll('.toast').length === 0", "the toast's end")
 
 
+def test_a_toast_goes_by_itself_unless_one_is_at_it(desk):
+    # The clock set ahead for some frames; then it is back, so that what holds the toast has held it till now.
+    later = """
+      const { now } = Date;
+      Date.now = () => now() + MS;
+      const end = walk.view.frames + 3;
+      while (walk.view.frames < end) await new Promise((done) => setTimeout(done, 5));
+      Date.now = now;
+      return document.querySelectorAll(".toast").length;
+    """
+    desk.page.js("await walk.client.actions.setStart(9999)")
+    desk.page.until("document.querySelectorAll('.toast').length === 1", "the toast")
+    assert "9999" in desk.page.js("return document.querySelector('.toast').textContent")
+    # Whatever the pointer has been at before.
+    desk.page.mouse(["move", 5, SIZE[1] - 5])
+    desk.page.until("!document.querySelector('.toast:hover')", "the pointer elsewhere")
+    assert desk.page.js(later.replace("MS", "9000")) == 1
+    desk.page.mouse(["move", *desk.page.js("return desk.middle('.toast')")])
+    desk.page.until("document.querySelector('.toast:hover')", "the pointer over it")
+    assert desk.page.js(later.replace("MS", "11000")) == 1
+    desk.page.js("document.querySelector('.toast button').focus()")
+    desk.page.mouse(["move", 5, SIZE[1] - 5])
+    desk.page.until("!document.querySelector('.toast:hover')", "the pointer elsewhere")
+    assert desk.page.js(later.replace("MS", "11000")) == 1
+    desk.page.js("walk.view.renderer.domElement.focus()")
+    assert desk.page.js(later.replace("MS", "9000")) == 1
+    assert desk.page.js(later.replace("MS", "11000")) == 0
+
+
 def test_a_keypoint_is_added_by_dragging_it_out_of_the_panel_and_deleted_by_a_key(desk):
     before = desk.ids()
     x, y = desk.page.js("return desk.middle('.drag-source')")

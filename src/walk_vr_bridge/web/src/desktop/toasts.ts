@@ -10,7 +10,8 @@ import { element } from "../panel/element";
 import type { Stage } from "../scene/stage";
 import type { View } from "../scene/view";
 
-const SHOWN_MS = 7000;
+/** A toast goes by itself after this time; while it is pointed at or has the focus, the time begins anew. */
+const SHOWN_MS = 10_000;
 const MOST = 3;
 /** A toast stands over its place, and still below the head of the page. */
 const LEAST_TOP_PX = 190;
@@ -18,6 +19,7 @@ const LEAST_TOP_PX = 190;
 interface Toast {
   readonly refusal: Refusal;
   readonly root: HTMLElement;
+  sinceMs: number;
 }
 
 export class Toasts {
@@ -40,7 +42,8 @@ export class Toasts {
     if (this.toasts.length === 0) return;
     const now = Date.now();
     for (const toast of [...this.toasts]) {
-      if (now - toast.refusal.atMs > SHOWN_MS) this.drop(toast);
+      if (toast.root.matches(":hover, :focus-within")) toast.sinceMs = now;
+      if (now - toast.sinceMs > SHOWN_MS) this.drop(toast);
       else this.put(toast);
     }
   }
@@ -64,7 +67,7 @@ export class Toasts {
     close.addEventListener("click", () => this.client.actions.dismissRefusal(refusal.serial));
     root.append(element("span", "", sentence(refusal.reason)), close);
     this.root.append(root);
-    const toast = { refusal, root };
+    const toast = { refusal, root, sinceMs: refusal.atMs };
     this.toasts.push(toast);
     this.put(toast);
   }
