@@ -11,6 +11,9 @@ import type { Item, Section, Widget } from "./widgets";
 const DWELL_STEPS = [0, 1, 2, 3, 5, 8, 10, 15, 20, 30, 45, 60, 120];
 /** A shorter tour than this is not worth an offer [m]. */
 const WORTH_M = 0.1;
+/** What is not locked the walk passes within half a metre, which "stays" alone would not say. */
+const LOCK = "Lock: stays here, the walk passes exactly through";
+const UNLOCK = "Unlock: can be moved, the walk may pass beside";
 
 export function tourSections(state: State, actions: Actions): Section[] {
   const editor = state.session.role === "editor";
@@ -128,7 +131,7 @@ function chosenWidgets(keypoint: Keypoint, state: State, actions: Actions): Widg
       kind: "row",
       id: `chosen:${id}`,
       buttons: [
-        button("lock", locked ? "Unlock" : "Lock", lock, {
+        button("lock", locked ? UNLOCK : LOCK, lock, {
           ...compact,
           icon: locked ? "lock" : "unlock",
           pressed: locked,

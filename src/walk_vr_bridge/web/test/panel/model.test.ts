@@ -31,7 +31,9 @@ describe("the panel's model", () => {
       ["remove", 7],
       ["dwell", 7, 1],
     ]);
+    expect(find(model, "button", "lock")).toMatchObject({ compact: true, pressed: true });
     store.patch("selection", { keypoint: 3 });
+    expect(find(model, "button", "lock").label).toContain("passes exactly through");
     find(model, "button", "start").run();
     expect(asked.at(-1)).toEqual(["freeEnd", 3]);
   });
