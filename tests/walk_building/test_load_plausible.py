@@ -126,3 +126,11 @@ def test_furniture_cannot_be_told_apart_in_a_mesh(tmp_path: Path) -> None:
     path = tmp_path / "house.stl"
     building((10, 8, 6), 3, 3).export(path)
     assert any("furniture" in warning for warning in load_model(path, LoadOptions(furniture=False)).warnings)
+
+
+def test_a_unit_in_which_nobody_could_stand_upright_is_doubted(tmp_path: Path) -> None:
+    path = tmp_path / "house.stl"
+    building((12, 14, 6.2), 3, 3).export(path)
+    feet = load_model(path, LoadOptions(units_m=0.3048)).warnings
+    assert any("only 1.89 m high" in warning and "--units" in warning for warning in feet)
+    assert not any(" m high" in warning for warning in load_model(path).warnings)

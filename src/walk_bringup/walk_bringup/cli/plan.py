@@ -35,6 +35,7 @@ from walk_plan.options import PlanOption, plan_config, plan_options
 from walk_plan.pipeline import plan_walkthrough
 from walk_plan.stages import STAGES
 from walk_plan.walkthrough import Walkthrough
+from walk_plan.wording import duration
 
 
 class SectionedCommand(click.Command):
@@ -173,8 +174,8 @@ def summary_lines(walkthrough: Walkthrough, out: Path, seconds: float, compared:
     entered = sum(visit.entered for visit in walkthrough.visits)
     reachable = sum(room.reachable for room in walkthrough.building.rooms)
     beyond = len(walkthrough.building.rooms) - reachable
-    minutes, rest = divmod(round(quality.duration_s), 60)
-    yield f"walk       {quality.length_m:.1f} m in {minutes} min {rest} s past {len(walkthrough.keypoints)} keypoints"
+    past = f"past {len(walkthrough.keypoints)} keypoints"
+    yield f"walk       {quality.length_m:.1f} m in {duration(quality.duration_s)} {past}"
     others = f"; {beyond} cannot be reached, the report says why" if beyond else ""
     yield f"rooms      {entered} of {reachable + beyond} entered{others}"
     yield f"collisions {quality.colliding_segments} of {quality.segments} segments"

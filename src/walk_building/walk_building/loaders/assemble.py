@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from walk_building.errors import BuildingError
 from walk_building.loaders.named_doors import doors_by_name
-from walk_building.loaders.plausible import check_extent, suspect_axes, suspect_precision
+from walk_building.loaders.plausible import check_extent, suspect_axes, suspect_precision, suspect_size
 from walk_building.loaders.raw import PartFilter, RawMesh, RawModel
 from walk_building.model import Door, LoadOptions, Model, Part, Space, Storey
 
@@ -64,6 +64,7 @@ def assemble(raw: RawModel, path: Path, options: LoadOptions, part_filter: PartF
         _log.info("%s: %d triangles without an area were left out", path, n_degenerate)
     warnings += suspect_precision((mesh.vertices for mesh in raw.parts), units_m)
     warnings += suspect_axes(vertices, faces, up)
+    warnings += suspect_size(vertices, units_m)
 
     offset_m = _offset(vertices)
     return Model(

@@ -15,6 +15,8 @@ from walk_building.model import Part
 
 # Less than this in every direction and no person fits in; a house in millimetres read as metres is below it.
 _SMALLEST_M = 1.0
+# A room is higher; a house in metres read as feet is below it, with two storeys.
+_LOWEST_M = 2.0
 # The longest buildings (airports, factories) are 1 to 2 km long; a house in millimetres read as metres is above it.
 _LONGEST_M = 5000.0
 # The tallest building is 830 m high; a single storey in millimetres read as metres is 2500 m.
@@ -88,6 +90,22 @@ def _centre(vertices: NDArray[np.float64], faces: NDArray[np.int32], part: Part)
     corners = vertices[faces[part.first_face : part.first_face + part.n_faces].ravel()]
     centre: NDArray[np.float64] = (corners.min(axis=0) + corners.max(axis=0)) / 2
     return centre
+
+
+def suspect_size(vertices: NDArray[np.float64], units_m: float) -> list[str]:
+    """Returns a warning where a person could hardly stand upright in the model: most likely its unit is another.
+
+    Args:
+        vertices: (V, 3) [m].
+        units_m: Length of the file's unit, stated or assumed [m].
+    """
+    height_m = np.ptp(vertices[:, 2])
+    if height_m >= _LOWEST_M:
+        return []
+    return [
+        f"With a unit of {units_m:g} m the model is only {height_m:.2f} m high, less than a room: is that its unit? "
+        "Say another with --units (mm, cm, in, ft, or its length in metres)."
+    ]
 
 
 def suspect_precision(meshes: Iterable[NDArray[np.float64]], units_m: float) -> list[str]:
