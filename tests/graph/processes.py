@@ -146,7 +146,7 @@ class Observer:
                     return dict(diagnostic_values(status), level=status.level, message=status.message)
         return {}
 
-    def edit(self, kind, keypoint, position, client="anna", spoil=None):
+    def edit(self, kind, keypoint, position, client="anna", spoil=None, **fields):
         """Publishes an edit; returns a function that waits for its answer."""
         self.wait(lambda: self.edits.get_subscription_count() >= 2, "the graph to hear edits")
         self.sent += 1
@@ -157,6 +157,7 @@ class Observer:
             stamp_ns=10**18 + self.sent,
             position=np.asarray(position, float),
             quat_xyzw=np.array([0.0, 0.0, 0.0, 1.0]),
+            **fields,
         )
         msg = edit_to_msg(edit)
         if spoil is not None:

@@ -104,6 +104,10 @@ class LivePath(abc.ABC):
             self._shown[identity] = position
         return outcome
 
+    def shows(self, identity: int) -> bool:
+        """Returns whether a keypoint is shown where an edit since the last revision has it."""
+        return identity in self._shown
+
     def take_back(self, identity: int | None = None) -> OptimisedPath:
         """Returns the path of the last revision with the edits shown since, but for one keypoint's; None: for all.
 

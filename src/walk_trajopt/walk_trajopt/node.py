@@ -75,6 +75,8 @@ class TrajoptNode(WalkNode):
         elif self._live is not None and (changed or timing != self._solved_for[2]):
             self._publish(self._live.path(), plan, timing)
         self._solved_for = (plan.stamp_ns, config, timing)
+        if self._live is not None and self._take_back_confirmed(self._live, plan.stamp_ns):
+            self._publish(self._live.path(), plan, timing)
         self._follow_edits(building, plan, timing)
 
     def _take_back(self) -> bool:
@@ -85,6 +87,19 @@ class TrajoptNode(WalkNode):
             if self._live is not None and self._solved_for:
                 self._live.take_back(keypoint)
         return bool(refused)
+
+    def _take_back_confirmed(self, live: LivePath, stamp_ns: int) -> bool:
+        """Leaves to the revision what it has; returns whether something was shown that it has not any more.
+
+        As where an edit was accepted and undone before trajopt came to it: to the path both revisions are the same.
+        """
+        changed = False
+        for keypoint in self._edits.confirmed(stamp_ns):
+            self._rough.pop(keypoint, None)
+            if live.shows(keypoint):
+                live.take_back(keypoint)
+                changed = True
+        return changed
 
     def _refine(self, building: Building) -> bool:
         """Solves the releases in full that are shown as drags are; returns whether there was anything."""
@@ -130,8 +145,13 @@ class TrajoptNode(WalkNode):
         latest, dropped = self._edits.latest()
         for _ in range(dropped):
             self.diagnostics.dropped()
-        for edit, came_s in latest:
+        for followed in latest:
+            edit = followed.edit
             if self._live is None or edit.keypoint not in plan.ids:
+                continue
+            if followed.over:
+                # The sequencer was faster: the path is that of its revision already.
+                self._tell(edit, "" if followed.over is Outcome.ACCEPTED else "the sequencer has refused it")
                 continue
             eye, released = eye_over_floor(building, edit.position), edit.kind is EditKind.RELEASE
             self._rough.pop(edit.keypoint, None)
@@ -142,7 +162,7 @@ class TrajoptNode(WalkNode):
                 outcome = self._live.move(edit.keypoint, eye)
             if outcome.accepted:
                 self._publish(outcome.path, plan, timing, hasty=True)
-                self.diagnostics.latency(self.now_s() - came_s)
+                self.diagnostics.latency(self.now_s() - followed.came_s)
             self._tell(edit, outcome.reason)
         if self._rough:
             self.worker.wake(rest_s=REFINE_S)
@@ -216,7 +236,8 @@ class TrajoptNode(WalkNode):
         self._follow_edits(self.building, plan, timing)
 
     def _store_result(self, data: bytes) -> None:
-        # What the authority refuses is taken back: the path goes through its place for the keypoint again.
+        # The path goes through the authority's place for the keypoint again: at once where it refuses the edit, else
+        # with the revision.
         if self._edits.store_result(data):
             self.worker.wake()
 
