@@ -27,11 +27,17 @@ class _Forward(logging.Handler):
 
 
 def forward_logging(logger: Any) -> None:
-    """Sends what the project's packages log at INFO and above to the ROS logger, until the next call."""
+    """Sends what the project's packages log at INFO and above to the ROS logger, until `stop_forwarding`."""
+    stop_forwarding()
     root = logging.getLogger()
-    for handler in [h for h in root.handlers if isinstance(h, _Forward)]:
-        root.removeHandler(handler)
     handler = _Forward(logger)
     handler.addFilter(lambda record: record.name.startswith("walk_"))
     root.addHandler(handler)
     logging.getLogger().setLevel(min(root.level or logging.WARNING, logging.INFO))
+
+
+def stop_forwarding() -> None:
+    """Ends what `forward_logging` has begun: a node that is gone logs nothing."""
+    root = logging.getLogger()
+    for handler in [h for h in root.handlers if isinstance(h, _Forward)]:
+        root.removeHandler(handler)

@@ -26,7 +26,7 @@ from walk_building.model import LoadOptions
 from walk_building.walker import Walker
 from walk_ros.diagnostics import Diagnostics, error_code
 from walk_ros.errors import MessageError
-from walk_ros.log import forward_logging
+from walk_ros.log import forward_logging, stop_forwarding
 from walk_ros.parameters import ConfigParameters, unknown_overrides
 from walk_ros.qos import latched
 from walk_ros.side_node import SideNode
@@ -220,6 +220,7 @@ class WalkNode(Node):
         self.worker.stop(STOP_S)
         if self._aside is not None:
             self._aside.stop()
+        stop_forwarding()
         super().destroy_node()
 
     def _changed(self, groups: frozenset[str]) -> None:
