@@ -3,12 +3,14 @@
 """What trajopt shows where the sequencer was faster: its answer is there before the edit was worked on."""
 
 import contextlib
+import math
 import time
 
 import numpy as np
 import pytest
 import rclpy
 from graph.domains import own_domain
+from graph.processes import LIMIT_S
 from rclpy.serialization import serialize_message
 
 from walk_building.pipeline import load_building
@@ -27,21 +29,40 @@ MOVED = 2
 PLACE = np.array([6.4, 2.4, 1.6])
 
 
+def wait_for(condition, what):
+    end = time.monotonic() + LIMIT_S
+    while not condition():
+        assert time.monotonic() < end, f"waited in vain for {what}"
+        time.sleep(0.005)
+
+
 class Trajopt:
     """The real node; messages are put where its subscriptions put them, and its worker is kept while they are."""
 
     def __init__(self, rooms):
         self.node, self.building = TrajoptNode(), load_building(rooms)
+        self.steps = 0
+        worker = self.node.worker
+        step = worker._step
+
+        def counted():
+            step()
+            self.steps += 1
+
+        worker._step = counted
+        wait_for(lambda: self.node.building is not None, "the node to load its building")
 
     @contextlib.contextmanager
     def busy(self):
-        """The worker works on something else meanwhile; at the end it has come to rest."""
-        with self.node.worker._working:
+        """The worker works on something else meanwhile; at the end it has worked on all that came and comes to rest."""
+        worker = self.node.worker
+        with worker._working:
             yield
-        for _ in range(20):
-            time.sleep(0.02)
-            with self.node.worker._working:
-                pass
+        # A second step: the first may have put something off.
+        for _ in range(2):
+            done = self.steps
+            worker.wake()
+            wait_for(lambda done=done: self.steps > done and worker._due_s == math.inf, "the worker to come to rest")
 
     def revision(self, stamp_ns):
         tour = plan_tour(self.building, EYES, SequencerConfig(method="given"))
@@ -81,14 +102,14 @@ def trajopt(rooms, tmp_path_factory):
     with own_domain() as domain:
         arguments = ["--ros-args", "-p", f"building:={rooms}", "-p", f"state_dir:={folder}"]
         rclpy.init(args=arguments, domain_id=domain)
-        trajopt = Trajopt(rooms)
-        while trajopt.node.building is None:
-            time.sleep(0.05)
-        with trajopt.busy():
-            trajopt.revision(10)
-        yield trajopt
-        trajopt.node.destroy_node()
-        rclpy.try_shutdown()
+        try:
+            trajopt = Trajopt(rooms)
+            with trajopt.busy():
+                trajopt.revision(10)
+            yield trajopt
+            trajopt.node.destroy_node()
+        finally:
+            rclpy.try_shutdown()
 
 
 def test_a_release_that_was_refused_before_it_was_worked_on_is_not_shown(trajopt):
