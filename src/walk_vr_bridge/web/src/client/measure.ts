@@ -24,7 +24,10 @@ export interface Caster {
 }
 
 const DIRECTIONS = 12;
-/** Heights over the floor at which the body is measured [m]; the highest is the eye's. */
+/**
+ * Heights at which the body is measured [m]; the highest is the eye's. The body hangs from the eye as in the planner's own sweep:
+ * over the floor right below it, it would stand in the side of the ramp that it has just left.
+ */
 const BODY_M = [0.35, 0.95] as const;
 /** Farther than this nothing is measured: it is far enough [m]. */
 export const FAR_M = 0.62;
@@ -56,11 +59,11 @@ export class PathMeasurer {
       this.toldMs = this.now();
     }
     if (this.row >= path.count) return;
-    const { radiusM } = building.walker;
+    const { radiusM, eyeHeightM } = building.walker;
     const end = this.now() + budgetMs;
     while (this.row < path.count && this.now() < end) {
       const stop = Math.min(path.count, this.row + ROWS_A_TURN);
-      for (; this.row < stop; this.row++) measureRow(path, this.row, obstacles, radiusM);
+      for (; this.row < stop; this.row++) measureRow(path, this.row, obstacles, radiusM, eyeHeightM);
     }
     const now = this.now();
     if (this.row < path.count && now < this.toldMs + TELL_MS) return;
@@ -69,14 +72,13 @@ export class PathMeasurer {
   }
 }
 
-function measureRow(path: PathState, row: number, obstacles: readonly Caster[], radiusM: number): void {
+function measureRow(path: PathState, row: number, obstacles: readonly Caster[], radiusM: number, eyeM: number): void {
   const { positions, heightM, clearanceM } = path;
   const [x, y, z] = [positions[3 * row]!, positions[3 * row + 1]!, positions[3 * row + 2]!];
   const height = nearest(obstacles, x, y, z, 0, 0, -1, FLOOR_MOST_M);
-  const floored = height < FLOOR_MOST_M;
-  heightM[row] = floored ? height : NaN;
+  heightM[row] = height < FLOOR_MOST_M ? height : NaN;
   let least = around(obstacles, x, y, z, radiusM + FAR_M);
-  if (floored) for (const over of BODY_M) least = around(obstacles, x, y, z - height + over, least);
+  for (const over of BODY_M) least = around(obstacles, x, y, z - eyeM + over, least);
   clearanceM[row] = least - radiusM;
 }
 

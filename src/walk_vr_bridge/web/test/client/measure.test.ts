@@ -51,6 +51,20 @@ describe("what is measured along the path", () => {
     expect(measured([corridor(-0.5, 0.7), pane]).state.path.clearanceM[0]).toBeCloseTo(0.45 - 0.25, 5);
   });
 
+  it("is that of a body that hangs from the eye, beside a ramp that it has just left", () => {
+    // The floor right below is 0.25 m under where the eye comes from: a body on it would stand in the ramp's side.
+    const side: Caster = {
+      cast(_x, y, z, _dx, dy, dz, _least = 0, most = Infinity) {
+        const wall = dy < -1e-9 && z < 0.44 ? y / -dy : Infinity;
+        const distance = Math.min(wall, dz < 0 ? z / -dz : Infinity);
+        return { distance: distance <= most ? distance : Infinity };
+      },
+    };
+    const { path } = measured(side).state;
+    expect(path.heightM[0]).toBeCloseTo(1.8, 5);
+    expect(path.clearanceM[0]).toBeCloseTo(FAR_M, 5);
+  });
+
   it("is told once, and not measured where nobody looks at it", () => {
     expect(measured(corridor(-1, 1)).version("path")).toBe(1);
     expect(measured(corridor(-1, 1), "plain").state.path.clearanceM[0]).toBeNaN();
